@@ -1,0 +1,239 @@
+//! Sums of products without rounding (Kulisch 1971: the long accumulator).
+
+use std::cmp::Ordering;
+
+/// Limbs of 64 bits. The products of three f64 span 2^-3222 to 2^3072; what is left above holds
+/// the carries of more terms than anyone adds.
+const LIMBS: usize = 100;
+
+/// The power of two that the lowest bit stands for: three times that of the smallest f64.
+const LOWEST: i32 = -3222;
+
+/// A fixed-point number in two's complement, wide enough for every sum of products of up to three
+/// finite f64 numbers.
+#[derive(Clone)]
+pub struct Accumulator {
+    limbs: [u64; LIMBS],
+}
+
+/// A number `mantissa · 2^exponent` whose exponent may be beyond that of an f64.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scaled {
+    /// Zero, or of absolute value from 2^127 up to 2^128.
+    pub mantissa: f64,
+    /// The power of two.
+    pub exponent: i32,
+}
+
+impl Default for Accumulator {
+    fn default() -> Self {
+        Self { limbs: [0; LIMBS] }
+    }
+}
+
+impl Accumulator {
+    /// Adds the product of three finite numbers.
+    pub fn add(&mut self, factors: [f64; 3]) {
+        let [a, b, c] = factors.map(Decoded::of);
+        let low = u128::from(a.mantissa) * u128::from(b.mantissa);
+        if low == 0 || c.mantissa == 0 {
+            return;
+        }
+        let product = multiply(low, c.mantissa);
+        let shift = a.exponent + b.exponent + c.exponent - LOWEST;
+        let negative = a.negative ^ b.negative ^ c.negative;
+        self.add_shifted(product, shift as usize, negative);
+    }
+
+    /// Subtracts the product of three finite numbers.
+    pub fn subtract(&mut self, [a, b, c]: [f64; 3]) {
+        self.add([-a, b, c]);
+    }
+
+    /// Adds another sum.
+    pub fn add_all(&mut self, other: &Self) {
+        let mut carry = false;
+        for (place, part) in self.limbs.iter_mut().zip(other.limbs) {
+            let (once, first) = place.overflowing_add(part);
+            let (twice, second) = once.overflowing_add(u64::from(carry));
+            (*place, carry) = (twice, first | second);
+        }
+    }
+
+    /// Subtracts another sum.
+    pub fn subtract_all(&mut self, other: &Self) {
+        self.add_all(&other.negated());
+    }
+
+    /// Adds or subtracts `number · 2^shift` units of the lowest bit.
+    fn add_shifted(&mut self, number: [u64; 3], shift: usize, negative: bool) {
+        let (limb, bits) = (shift / 64, shift % 64);
+        let [n0, n1, n2] = number;
+        let spill = |n: u64| if bits == 0 { 0 } else { n >> (64 - bits) };
+        let shifted = [n0 << bits, n1 << bits | spill(n0), n2 << bits | spill(n1), spill(n2)];
+        let mut carry = false;
+        for (index, place) in self.limbs[limb..].iter_mut().enumerate() {
+            let part = shifted.get(index).copied().unwrap_or(0);
+            if index >= shifted.len() && !carry {
+                break;
+            }
+            (*place, carry) = if negative {
+                let (once, first) = place.overflowing_sub(part);
+                let (twice, second) = once.overflowing_sub(u64::from(carry));
+                (twice, first | second)
+            } else {
+                let (once, first) = place.overflowing_add(part);
+                let (twice, second) = once.overflowing_add(u64::from(carry));
+                (twice, first | second)
+            };
+        }
+    }
+
+    /// The sum's sign: how it compares with zero.
+    pub fn sign(&self) -> Ordering {
+        if self.is_negative() {
+            Ordering::Less
+        } else if self.limbs.iter().any(|&limb| limb != 0) {
+            Ordering::Greater
+        } else {
+            Ordering::Equal
+        }
+    }
+
+    fn is_negative(&self) -> bool {
+        self.limbs[LIMBS - 1] >> 63 == 1
+    }
+
+    /// The sum, rounded to nearest.
+    pub fn value(&self) -> Scaled {
+        let negative = self.is_negative();
+        let magnitude = if negative { self.negated() } else { self.clone() };
+        let Some(top) = magnitude.limbs.iter().rposition(|&limb| limb != 0) else {
+            return Scaled { mantissa: 0.0, exponent: 0 };
+        };
+        let limb = |below: usize| top.checked_sub(below).map_or(0, |i| magnitude.limbs[i]);
+        let zeros = limb(0).leading_zeros();
+        let upper = (u128::from(limb(0)) << 64 | u128::from(limb(1))) << zeros;
+        let head = upper | (u128::from(limb(2)) << zeros >> 64);
+        // All that lies below only matters to rounding as "a little more": the sticky bit.
+        let sticky = magnitude.limbs[..top.saturating_sub(1)].iter().any(|&limb| limb != 0);
+        let mantissa = (head | u128::from(sticky)) as f64;
+        let exponent = 64 * (top as i32 - 1) - zeros as i32 + LOWEST;
+        Scaled { mantissa: if negative { -mantissa } else { mantissa }, exponent }
+    }
+
+    fn negated(&self) -> Self {
+        let mut limbs = self.limbs.map(|limb| !limb);
+        for limb in &mut limbs {
+            let carry;
+            (*limb, carry) = limb.overflowing_add(1);
+            if !carry {
+                break;
+            }
+        }
+        Self { limbs }
+    }
+}
+
+impl Scaled {
+    /// The quotient as an f64: infinite or zero if it lies beyond the range.
+    pub fn divided_by(self, divisor: Self) -> f64 {
+        let exponent = self.exponent - divisor.exponent;
+        let half = exponent / 2;
+        self.mantissa / divisor.mantissa * power_of_two(half) * power_of_two(exponent - half)
+    }
+}
+
+/// 2^exponent, clamped to what an f64 holds.
+fn power_of_two(exponent: i32) -> f64 {
+    2.0_f64.powi(exponent.clamp(-1074, 1024))
+}
+
+/// A finite f64 as ±mantissa · 2^exponent.
+struct Decoded {
+    mantissa: u64,
+    exponent: i32,
+    negative: bool,
+}
+
+impl Decoded {
+    fn of(x: f64) -> Self {
+        debug_assert!(x.is_finite());
+        let bits = x.to_bits();
+        let biased = (bits >> 52 & 0x7ff) as i32;
+        let fraction = bits & ((1 << 52) - 1);
+        let (mantissa, exponent) =
+            if biased == 0 { (fraction, -1074) } else { (fraction | 1 << 52, biased - 1075) };
+        Self { mantissa, exponent, negative: bits >> 63 == 1 }
+    }
+}
+
+fn multiply(a: u128, b: u64) -> [u64; 3] {
+    let low = u128::from(a as u64) * u128::from(b);
+    let high = (a >> 64) * u128::from(b) + (low >> 64);
+    [low as u64, high as u64, (high >> 64) as u64]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn sum(terms: &[[f64; 3]]) -> Accumulator {
+        let mut sum = Accumulator::default();
+        for &term in terms {
+            sum.add(term);
+        }
+        sum
+    }
+
+    fn as_f64(sum: &Accumulator) -> f64 {
+        sum.value().divided_by(self::sum(&[[1.0, 1.0, 1.0]]).value())
+    }
+
+    #[test]
+    fn extremes_cancel_to_what_is_left() {
+        let (huge, tiny) = (f64::MAX, f64::from_bits(1));
+        let mut s = sum(&[[huge, huge, huge], [tiny, -tiny, tiny]]);
+        assert_eq!(s.sign(), Ordering::Greater);
+        s.subtract([huge, huge, huge]);
+        assert_eq!(s.sign(), Ordering::Less);
+        s.add([tiny, tiny, tiny]);
+        assert_eq!(s.sign(), Ordering::Equal);
+        assert_eq!(s.value(), Scaled { mantissa: 0.0, exponent: 0 });
+    }
+
+    #[test]
+    fn values_are_rounded_to_nearest_with_the_sticky_bit() {
+        let ulp = f64::EPSILON;
+        let tie = sum(&[[1.0, 1.0, 1.0], [ulp, 0.5, 1.0]]);
+        assert_eq!(as_f64(&tie), 1.0);
+        let above_tie = sum(&[[1.0, 1.0, 1.0], [ulp, 0.5, 1.0], [1e-300, 1e-300, 1e-300]]);
+        assert_eq!(as_f64(&above_tie), 1.0 + ulp);
+        let below_tie = sum(&[[-1.0, 1.0, 1.0], [-ulp, 0.5, 1.0], [1e-200, 1e-99, 1.0]]);
+        assert_eq!(as_f64(&below_tie), -1.0);
+    }
+
+    proptest! {
+        #[test]
+        fn products_of_integers_sum_like_integers(
+            terms in prop::collection::vec(prop::array::uniform3(-(1i64 << 40)..1 << 40), 0..20)
+        ) {
+            let mut expected: i128 = 0;
+            let mut s = Accumulator::default();
+            for [a, b, c] in terms {
+                expected += i128::from(a) * i128::from(b) * i128::from(c);
+                s.add([a as f64, b as f64, c as f64]);
+            }
+            prop_assert_eq!(s.sign(), expected.cmp(&0));
+            prop_assert_eq!(as_f64(&s), expected as f64);
+        }
+
+        #[test]
+        fn single_products_round_as_the_processor_does(a in any::<f32>(), b in any::<f32>()) {
+            prop_assume!(a.is_finite() && b.is_finite());
+            let (a, b) = (f64::from(a), f64::from(b));
+            prop_assert_eq!(as_f64(&sum(&[[a, b, 1.0]])), a * b);
+        }
+    }
+}

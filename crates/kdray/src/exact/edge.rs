@@ -1,0 +1,130 @@
+//! Edge functions, exactly.
+
+use super::Accumulator;
+use crate::geometry::Ray;
+use std::cmp::Ordering;
+
+/// d · (q' x p') with p' = p − o: on which side of the edge (p, q) the line of the ray passes.
+pub fn edge_function(ray: &Ray<3>, p: [f64; 3], q: [f64; 3]) -> Accumulator {
+    // q' x p' = q x p + p x o + o x q
+    let (o, d) = (ray.origin, ray.direction);
+    let mut sum = Accumulator::default();
+    for (a, b) in [(q, p), (p, o), (o, q)] {
+        add_triple_product(&mut sum, d, a, b);
+    }
+    sum
+}
+
+/// T = −a' · (b' x c'), six times the volume that the triangle spans with the ray's origin.
+pub fn volume(origin: [f64; 3], [a, b, c]: [[f64; 3]; 3]) -> Accumulator {
+    // a' · (b' x c') = a·(b x c) − o·(b x c) − o·(c x a) − o·(a x b)
+    let mut sum = Accumulator::default();
+    add_triple_product(&mut sum, a, c, b);
+    for (p, q) in [(b, c), (c, a), (a, b)] {
+        add_triple_product(&mut sum, origin, p, q);
+    }
+    sum
+}
+
+/// Adds a · (b x c).
+fn add_triple_product(sum: &mut Accumulator, a: [f64; 3], b: [f64; 3], c: [f64; 3]) {
+    for i in 0..3 {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        sum.add([a[i], b[j], c[k]]);
+        sum.subtract([a[i], b[k], c[j]]);
+    }
+}
+
+/// The sign of the edge function of (p, q), divided by the direction's main component, for the
+/// turned ray (see [`crate::exact`]); `Equal` only if the line of p and q passes the origin.
+/// `sign` is that of the edge function for the ray as it is.
+pub fn turned_edge_sign(ray: &Ray<3>, p: [f64; 3], q: [f64; 3], sign: Ordering) -> Ordering {
+    let k = main_axis(&ray.direction);
+    let (u, v) = ((k + 1) % 3, (k + 2) % 3);
+    if sign != Ordering::Equal {
+        return oriented(sign, ray.direction[k]);
+    }
+    cross_sign(ray.origin, q, p, (v, k)).then_with(|| cross_sign(ray.origin, q, p, (k, u)))
+}
+
+/// The sign of a'_i b'_j − a'_j b'_i with a' = a − o, b' = b − o.
+fn cross_sign(o: [f64; 3], a: [f64; 3], b: [f64; 3], (i, j): (usize, usize)) -> Ordering {
+    let mut sum = Accumulator::default();
+    for (p, q) in [(a, b), (b, o), (o, a)] {
+        sum.add([p[i], q[j], 1.0]);
+        sum.subtract([p[j], q[i], 1.0]);
+    }
+    sum.sign()
+}
+
+/// In 2-D: d x p', on which side of the line of the ray the point p lies.
+pub fn side_of_ray(ray: &Ray<2>, p: [f64; 2]) -> Accumulator {
+    let (o, d) = (ray.origin, ray.direction);
+    let mut sum = Accumulator::default();
+    sum.add([d[0], p[1], 1.0]);
+    sum.subtract([d[0], o[1], 1.0]);
+    sum.subtract([d[1], p[0], 1.0]);
+    sum.add([d[1], o[0], 1.0]);
+    sum
+}
+
+/// In 2-D: the sign of d x p' for the ray turned by an infinitesimal ε in its slope, divided by the
+/// main component of the direction; `Equal` only if p is the ray's origin.
+pub fn turned_side_sign(ray: &Ray<2>, p: [f64; 2], sign: Ordering) -> Ordering {
+    let k = main_axis(&ray.direction);
+    if sign != Ordering::Equal {
+        return oriented(sign, ray.direction[k]);
+    }
+    // d x p' over d_k is ±(p'_u − slope · p'_k): turning subtracts ±ε · p'_k.
+    let along = p[k].partial_cmp(&ray.origin[k]).unwrap_or(Ordering::Equal);
+    if k == 0 { along.reverse() } else { along }
+}
+
+fn oriented(sign: Ordering, direction: f64) -> Ordering {
+    if direction < 0.0 { sign.reverse() } else { sign }
+}
+
+/// The axis of the largest component; the first of equals.
+fn main_axis<const K: usize>(direction: &[f64; K]) -> usize {
+    (1..K).fold(0, |k, i| if direction[i].abs() > direction[k].abs() { i } else { k })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const RAY: Ray<3> = Ray {
+        origin: [0.0, 0.0, -1.0],
+        direction: [0.0, 0.0, 1.0],
+        interval: crate::Interval::FORWARD,
+    };
+
+    #[test]
+    fn an_edge_that_the_ray_meets_has_edge_function_zero() {
+        let (p, q) = ([-1.0, 0.0, 5.0], [1e17, 0.0, 3.0]);
+        assert_eq!(edge_function(&RAY, p, q).sign(), Ordering::Equal);
+        let q = [1e17, f64::from_bits(1), 3.0];
+        assert_eq!(edge_function(&RAY, p, q).sign(), Ordering::Greater);
+        assert_eq!(edge_function(&RAY, q, p).sign(), Ordering::Less);
+    }
+
+    #[test]
+    fn the_turned_ray_is_on_opposite_sides_of_an_edge_seen_both_ways() {
+        let equal = Ordering::Equal;
+        for (p, q) in [([-1.0, 0.0, 5.0], [2.0, 0.0, 3.0]), ([0.0, 1.0, 2.0], [0.0, -3.0, 4.0])] {
+            let sign = turned_edge_sign(&RAY, p, q, equal);
+            assert_ne!(sign, equal);
+            assert_eq!(turned_edge_sign(&RAY, q, p, equal), sign.reverse());
+        }
+        let on_the_ray = ([0.0, 0.0, 1.0], [0.0, 0.0, 4.0]);
+        assert_eq!(turned_edge_sign(&RAY, on_the_ray.0, on_the_ray.1, equal), equal);
+    }
+
+    #[test]
+    fn the_volume_is_zero_for_an_origin_in_the_plane() {
+        let triangle = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        assert_eq!(volume([0.25, 0.25, 0.5], triangle).sign(), Ordering::Equal);
+        assert_eq!(volume([0.0; 3], triangle).sign(), Ordering::Less);
+        assert_eq!(volume([1.0; 3], triangle).sign(), Ordering::Greater);
+    }
+}

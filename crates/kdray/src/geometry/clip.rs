@@ -1,0 +1,138 @@
+//! The bounds of a convex polygon's part inside a box ("perfect splits", Havran 2000, §4.3).
+
+use super::Aabb;
+use arrayvec::ArrayVec;
+
+/// Room for a triangle cut by six planes, each of which adds one vertex at most.
+type Polygon<const K: usize> = ArrayVec<Vertex<K>, 12>;
+
+/// A vertex of the polygon while it is being cut.
+#[derive(Clone, Copy)]
+struct Vertex<const K: usize> {
+    position: [f64; K],
+    /// How far a coordinate may be from the true one: zero for the polygon's own vertices.
+    error: f64,
+}
+
+/// The smallest box, rounded outward, of the part of a convex polygon (or segment) that lies in
+/// the closed `cell`; `None` if no part does.
+///
+/// Sutherland and Hodgman's clipping, one plane after the other, in f64. The result never leaves
+/// out a true point: cuts are made at the cell's planes moved outward by a pad far above what
+/// rounding can do to a cut vertex, and cut vertices count with the pad as their error. The
+/// polygon's own vertices count exactly, so a polygon that lies in an axis-aligned plane stays
+/// flat.
+///
+/// # Panics
+/// If the polygon has more than three vertices in 3-D or 2-D beyond what twelve cut vertices hold.
+pub fn clipped_bounds<const K: usize>(polygon: &[[f32; K]], cell: &Aabb<K>) -> Option<Aabb<K>> {
+    let whole = Aabb::of_points(polygon.iter().copied());
+    let limit = whole.intersection(cell);
+    if limit.is_empty() || limit == whole {
+        return (!limit.is_empty()).then_some(limit);
+    }
+    let pad = pad(&whole, cell);
+    let mut part: Polygon<K> =
+        polygon.iter().map(|&p| Vertex { position: p.map(f64::from), error: 0.0 }).collect();
+    for axis in 0..K {
+        if whole.min[axis] < cell.min[axis] {
+            part = cut(&part, axis, f64::from(cell.min[axis]) - pad, 1.0, pad);
+        }
+        if whole.max[axis] > cell.max[axis] {
+            part = cut(&part, axis, f64::from(cell.max[axis]) + pad, -1.0, pad);
+        }
+    }
+    let bounds = part.iter().fold(Aabb::EMPTY, |bounds, v| bounds.union(&outward(v)));
+    let bounds = bounds.intersection(&limit);
+    (!bounds.is_empty()).then_some(bounds)
+}
+
+/// 2^-40 of the largest coordinate: cutting six times in f64 errs by less than 2^-48 of it.
+fn pad<const K: usize>(whole: &Aabb<K>, cell: &Aabb<K>) -> f64 {
+    let all = whole.min.iter().chain(&whole.max).chain(&cell.min).chain(&cell.max);
+    f64::from(all.fold(0.0_f32, |m, x| m.max(x.abs()))) * (1.0 / (1u64 << 40) as f64)
+}
+
+/// The part of `polygon` where `side · position[axis] ≥ side · plane`.
+fn cut<const K: usize>(
+    polygon: &Polygon<K>,
+    axis: usize,
+    plane: f64,
+    side: f64,
+    error: f64,
+) -> Polygon<K> {
+    let mut part = Polygon::new();
+    for (i, from) in polygon.iter().enumerate() {
+        let to = &polygon[(i + 1) % polygon.len()];
+        let (a, b) = (side * (from.position[axis] - plane), side * (to.position[axis] - plane));
+        if a >= 0.0 {
+            part.push(*from);
+        }
+        if (a >= 0.0) != (b >= 0.0) {
+            let share = a / (a - b);
+            let mut position: [f64; K] = std::array::from_fn(|k| {
+                from.position[k] + share * (to.position[k] - from.position[k])
+            });
+            position[axis] = plane;
+            part.push(Vertex { position, error });
+        }
+    }
+    part
+}
+
+/// The box of one vertex and its error, rounded outward to f32.
+fn outward<const K: usize>(vertex: &Vertex<K>) -> Aabb<K> {
+    Aabb {
+        min: vertex.position.map(|x| round_down(x - vertex.error)),
+        max: vertex.position.map(|x| round_up(x + vertex.error)),
+    }
+}
+
+fn round_down(x: f64) -> f32 {
+    let nearest = x as f32;
+    if f64::from(nearest) > x { nearest.next_down() } else { nearest }
+}
+
+fn round_up(x: f64) -> f32 {
+    let nearest = x as f32;
+    if f64::from(nearest) < x { nearest.next_up() } else { nearest }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TRIANGLE: [[f32; 3]; 3] = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]];
+
+    #[test]
+    fn a_corner_cut_off_has_tight_bounds() {
+        let cell = Aabb { min: [3.0, -1.0, -1.0], max: [9.0, 9.0, 9.0] };
+        let bounds = clipped_bounds(&TRIANGLE, &cell).unwrap();
+        assert_eq!(bounds.min, [3.0, 0.0, 0.0]);
+        assert_eq!((bounds.max[0], bounds.max[2]), (4.0, 0.0));
+        assert!(bounds.max[1] >= 1.0 && bounds.max[1] < 1.000_001);
+    }
+
+    #[test]
+    fn a_cell_beside_the_slanted_edge_holds_nothing() {
+        let cell = Aabb { min: [3.0, 3.0, -1.0], max: [4.0, 4.0, 1.0] };
+        assert_eq!(clipped_bounds(&TRIANGLE, &cell), None);
+    }
+
+    #[test]
+    fn touching_in_a_point_counts() {
+        let corner = Aabb { min: [2.0, 2.0, 0.0], max: [5.0, 5.0, 1.0] };
+        assert!(clipped_bounds(&TRIANGLE, &corner).is_some());
+        let vertex = Aabb { min: [4.0, -1.0, -1.0], max: [5.0, 0.0, 0.0] };
+        let bounds = clipped_bounds(&TRIANGLE, &vertex).unwrap();
+        assert_eq!((bounds.min, bounds.max), ([4.0, 0.0, 0.0], [4.0, 0.0, 0.0]));
+    }
+
+    #[test]
+    fn segments_are_polygons_of_two() {
+        let cell = Aabb { min: [1.0, 0.0], max: [2.0, 9.0] };
+        let bounds = clipped_bounds(&[[0.0, 0.0], [4.0, 8.0]], &cell).unwrap();
+        assert!((bounds.min[1] - 2.0).abs() < 1e-5 && (bounds.max[1] - 4.0).abs() < 1e-5);
+        assert_eq!((bounds.min[0], bounds.max[0]), (1.0, 2.0));
+    }
+}

@@ -1,0 +1,20 @@
+//! Exact ray queries on triangle meshes, through SAH kd-trees.
+//!
+//! The pipeline, in the order of the modules:
+//! [`geometry`] → [`exact`] → [`primitives`] → [`build`] → [`tree`] → [`traverse`] → [`query`].
+//!
+//! Most users need four names: [`TriangleMesh`], [`Scene`], [`Ray`] and [`Hit`].
+
+pub mod build;
+pub mod exact;
+pub mod geometry;
+pub mod primitives;
+pub mod query;
+pub mod traverse;
+pub mod tree;
+
+pub use build::{BuildError, BuildOptions, BuildProgress, CostModel, Strategy};
+pub use geometry::{Aabb, Interval, Ray, RayError};
+pub use primitives::{Hit, MeshError, Side, TriangleMesh};
+pub use query::Scene;
+pub use tree::{KdTree, TreeStats};

@@ -1,0 +1,176 @@
+//! Triangle meshes.
+
+use super::{Hit, HitRule, Intersect, Primitives, intersect_triangle};
+use crate::geometry::{Aabb, Ray, clipped_bounds};
+use thiserror::Error;
+
+/// Triangles that share vertices: positions, and three indices into them a triangle.
+///
+/// Degenerate triangles are kept and never hit; duplicates are kept; an empty mesh is valid.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TriangleMesh {
+    vertices: Vec<[f32; 3]>,
+    triangles: Vec<[u32; 3]>,
+}
+
+/// Why a mesh cannot be used.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+pub enum MeshError {
+    /// A triangle names a vertex that is not there.
+    #[error(
+        "triangle {triangle} uses vertex {vertex}, but there are only {vertices}; mend or drop the triangle"
+    )]
+    IndexOutOfRange {
+        /// The index of the triangle.
+        triangle: usize,
+        /// The vertex index it holds.
+        vertex: u32,
+        /// How many vertices there are.
+        vertices: usize,
+    },
+    /// A coordinate of one of the triangle's vertices is infinite or NaN.
+    #[error("vertex {vertex} of triangle {triangle} is not finite; mend or drop the triangle")]
+    NonFiniteVertex {
+        /// The index of the triangle.
+        triangle: usize,
+        /// The vertex index it holds.
+        vertex: u32,
+    },
+    /// There are 2^30 triangles or more.
+    #[error("the mesh has {0} triangles, but at most 1073741823 fit one tree; split the mesh")]
+    TooManyTriangles(usize),
+}
+
+impl TriangleMesh {
+    /// A mesh of `triangles` over `vertices`. Vertices that no triangle uses may be anything.
+    ///
+    /// # Errors
+    /// The first triangle that has an index out of range or a vertex that is not finite.
+    pub fn new(vertices: Vec<[f32; 3]>, triangles: Vec<[u32; 3]>) -> Result<Self, MeshError> {
+        if triangles.len() >= 1 << 30 {
+            return Err(MeshError::TooManyTriangles(triangles.len()));
+        }
+        for (index, triangle) in triangles.iter().enumerate() {
+            check_triangle(&vertices, index, triangle)?;
+        }
+        Ok(Self { vertices, triangles })
+    }
+
+    /// Like [`new`](Self::new), but drops the triangles it would refuse, and returns the indices
+    /// they had. The others keep their order; their ids close the gaps.
+    pub fn new_dropping_bad(
+        vertices: Vec<[f32; 3]>,
+        mut triangles: Vec<[u32; 3]>,
+    ) -> Result<(Self, Vec<usize>), MeshError> {
+        let mut dropped = Vec::new();
+        let mut index = 0;
+        triangles.retain(|triangle| {
+            let bad = check_triangle(&vertices, index, triangle).is_err();
+            if bad {
+                dropped.push(index);
+            }
+            index += 1;
+            !bad
+        });
+        Ok((Self::new(vertices, triangles)?, dropped))
+    }
+
+    /// A mesh in which every triangle has three vertices of its own.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn from_soup<V: Into<[f32; 3]>>(
+        soup: impl IntoIterator<Item = [V; 3]>,
+    ) -> Result<Self, MeshError> {
+        let vertices: Vec<[f32; 3]> = soup.into_iter().flatten().map(Into::into).collect();
+        let triangles = (0..vertices.len() as u32 / 3).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]);
+        Self::new(vertices, triangles.collect())
+    }
+
+    /// The vertex positions.
+    pub fn vertices(&self) -> &[[f32; 3]] {
+        &self.vertices
+    }
+
+    /// The vertex indices of each triangle.
+    pub fn triangles(&self) -> &[[u32; 3]] {
+        &self.triangles
+    }
+
+    /// The corners a, b, c of a triangle.
+    pub fn corners(&self, id: u32) -> [[f32; 3]; 3] {
+        self.triangles[id as usize].map(|vertex| self.vertices[vertex as usize])
+    }
+
+    /// (b−a) x (c−a) of a triangle: its normal, of twice its area in length.
+    pub fn geometric_normal(&self, id: u32) -> [f64; 3] {
+        let [a, b, c] = self.corners(id).map(|p| glam::DVec3::from(p.map(f64::from)));
+        (b - a).cross(c - a).into()
+    }
+}
+
+fn check_triangle(
+    vertices: &[[f32; 3]],
+    index: usize,
+    triangle: &[u32; 3],
+) -> Result<(), MeshError> {
+    for &vertex in triangle {
+        let Some(position) = vertices.get(vertex as usize) else {
+            let vertices = vertices.len();
+            return Err(MeshError::IndexOutOfRange { triangle: index, vertex, vertices });
+        };
+        if !position.iter().all(|x| x.is_finite()) {
+            return Err(MeshError::NonFiniteVertex { triangle: index, vertex });
+        }
+    }
+    Ok(())
+}
+
+impl Primitives<3> for TriangleMesh {
+    fn count(&self) -> usize {
+        self.triangles.len()
+    }
+
+    fn bounds(&self, id: u32) -> Aabb<3> {
+        Aabb::of_points(self.corners(id))
+    }
+
+    fn clipped_bounds(&self, id: u32, cell: &Aabb<3>) -> Option<Aabb<3>> {
+        clipped_bounds(&self.corners(id), cell)
+    }
+}
+
+impl Intersect<3> for TriangleMesh {
+    #[inline]
+    fn intersect(&self, id: u32, ray: &Ray<3>, rule: HitRule, report: &mut impl FnMut(Hit)) {
+        if let Some(hit) = intersect_triangle(&self.corners(id), id, ray, rule) {
+            report(hit);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CORNERS: [[f32; 3]; 3] = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+
+    #[test]
+    fn errors_name_the_triangle() {
+        let out_of_range = TriangleMesh::new(CORNERS.to_vec(), vec![[0, 1, 2], [0, 1, 3]]);
+        let expected = MeshError::IndexOutOfRange { triangle: 1, vertex: 3, vertices: 3 };
+        assert_eq!(out_of_range, Err(expected));
+        let mut vertices = CORNERS.to_vec();
+        vertices.push([0.0, f32::NAN, 0.0]);
+        assert!(TriangleMesh::new(vertices.clone(), vec![[0, 1, 2]]).is_ok(), "unused vertex");
+        let nan = TriangleMesh::new(vertices, vec![[0, 1, 2], [3, 1, 2]]);
+        assert_eq!(nan, Err(MeshError::NonFiniteVertex { triangle: 1, vertex: 3 }));
+    }
+
+    #[test]
+    fn bad_triangles_can_be_dropped_and_counted() {
+        let triangles = vec![[0, 1, 9], [0, 1, 2], [7, 1, 2]];
+        let (mesh, dropped) = TriangleMesh::new_dropping_bad(CORNERS.to_vec(), triangles).unwrap();
+        assert_eq!((mesh.triangles().len(), dropped), (1, vec![0, 2]));
+    }
+}

@@ -1,0 +1,42 @@
+//! What a ray can hit, and all that the build and the traversal know of it.
+
+mod ball;
+mod hit;
+mod mesh;
+mod segments;
+mod triangle;
+
+pub use ball::Balls;
+pub use hit::{Hit, HitRule, Side};
+pub use mesh::{MeshError, TriangleMesh};
+pub use segments::Segments;
+pub use triangle::intersect_triangle;
+
+use crate::geometry::{Aabb, Ray};
+
+/// All that the build and the tree know of primitives in K dimensions: how many there are, and
+/// where. A primitive's id is its index, from zero.
+pub trait Primitives<const K: usize>: Sync {
+    /// How many primitives there are; fewer than 2^32.
+    fn count(&self) -> usize;
+
+    /// The primitive's bounding box, in finite coordinates.
+    fn bounds(&self, id: u32) -> Aabb<K>;
+
+    /// The bounding box of the primitive's part in the closed `cell`, never smaller than the true
+    /// one; `None` only if no part lies there. The default is the shared part of the two boxes; a
+    /// tighter answer makes a better tree.
+    fn clipped_bounds(&self, id: u32, cell: &Aabb<K>) -> Option<Aabb<K>> {
+        let shared = self.bounds(id).intersection(cell);
+        (!shared.is_empty()).then_some(shared)
+    }
+}
+
+/// Primitives that rays can be tested against.
+pub trait Intersect<const K: usize>: Primitives<K> {
+    /// Gives `report` each hit of `ray` on one primitive, in any order: those of t in
+    /// `ray.interval` that count by `rule`. The t of a hit must depend on nothing but the ray's
+    /// origin and direction and the primitive, and must lie within the primitive's bounds up to a
+    /// relative error of 2^-39 in t.
+    fn intersect(&self, id: u32, ray: &Ray<K>, rule: HitRule, report: &mut impl FnMut(Hit));
+}

@@ -1,0 +1,5 @@
+//! The public face: a scene that answers queries.
+
+mod scene;
+
+pub use scene::Scene;

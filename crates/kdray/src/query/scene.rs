@@ -1,0 +1,117 @@
+//! Primitives with a tree over them.
+
+use crate::build::{BuildError, BuildOptions, BuildProgress};
+use crate::geometry::{Aabb, Ray};
+use crate::primitives::{Hit, HitRule, Intersect, TriangleMesh};
+use crate::traverse::{self, AllHits, Naive, Trace};
+use crate::tree::KdTree;
+use std::ops::ControlFlow;
+
+/// Primitives with a kd-tree over them, ready for queries from any thread.
+///
+/// A ray that [`Ray::check`] refuses hits nothing.
+///
+/// ```
+/// use kdray::{BuildOptions, Ray, Scene, TriangleMesh};
+/// let mesh = TriangleMesh::new(
+///     vec![[0.0, 0.0, 2.0], [1.0, 0.0, 2.0], [0.0, 1.0, 2.0]],
+///     vec![[0, 1, 2]],
+/// )?;
+/// let scene = Scene::build(mesh, &BuildOptions::default())?;
+/// let ray = Ray::new([0.25, 0.25, 0.0], [0.0, 0.0, 1.0]);
+/// let hit = scene.closest_hit(&ray).expect("the ray points at the triangle");
+/// assert_eq!((hit.primitive_id, hit.t, hit.u, hit.v), (0, 2.0, 0.25, 0.25));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Scene<P = TriangleMesh, const K: usize = 3> {
+    primitives: P,
+    tree: KdTree<K>,
+}
+
+impl<P: Intersect<K>, const K: usize> Scene<P, K> {
+    /// Builds a tree over `primitives`.
+    ///
+    /// # Errors
+    /// See [`BuildError`].
+    pub fn build(primitives: P, options: &BuildOptions) -> Result<Self, BuildError> {
+        Self::build_with_progress(primitives, options, &|_| ControlFlow::Continue(()))
+    }
+
+    /// Builds a tree over `primitives`, tells `progress` how far it is, and stops if that answers
+    /// [`ControlFlow::Break`].
+    ///
+    /// # Errors
+    /// See [`BuildError`].
+    pub fn build_with_progress(
+        primitives: P,
+        options: &BuildOptions,
+        progress: &(dyn Fn(BuildProgress) -> ControlFlow<()> + Sync),
+    ) -> Result<Self, BuildError> {
+        let tree = KdTree::build_with_progress(&primitives, options, progress)?;
+        Ok(Self { primitives, tree })
+    }
+
+    /// What rays are tested against.
+    pub fn primitives(&self) -> &P {
+        &self.primitives
+    }
+
+    /// The tree.
+    pub fn tree(&self) -> &KdTree<K> {
+        &self.tree
+    }
+
+    /// The same queries without the tree.
+    pub fn naive(&self) -> Naive<'_, P, Aabb<K>> {
+        Naive::new(&self.primitives, *self.tree.bounds())
+    }
+
+    /// The hit of least t; of several at the same t, the one of the smallest primitive id.
+    pub fn closest_hit(&self, ray: &Ray<K>) -> Option<Hit> {
+        self.closest_hit_traced(ray, &mut ())
+    }
+
+    /// [`closest_hit`](Self::closest_hit), watched by `trace`.
+    pub fn closest_hit_traced(&self, ray: &Ray<K>, trace: &mut impl Trace) -> Option<Hit> {
+        traverse::closest_hit(&self.tree, &self.primitives, ray, trace)
+    }
+
+    /// Whether there is any hit: whether `ray.interval` is occluded.
+    pub fn any_hit(&self, ray: &Ray<K>) -> bool {
+        self.any_hit_traced(ray, &mut ())
+    }
+
+    /// [`any_hit`](Self::any_hit), watched by `trace`.
+    pub fn any_hit_traced(&self, ray: &Ray<K>, trace: &mut impl Trace) -> bool {
+        traverse::any_hit(&self.tree, &self.primitives, ray, trace).is_some()
+    }
+
+    /// Every crossing of a surface, once, by rising t ([`HitRule::Crossing`]), found as they are
+    /// asked for.
+    pub fn all_hits<'a>(&'a self, ray: &'a Ray<K>) -> AllHits<'a, P, K> {
+        self.all_hits_traced(ray, HitRule::Crossing, ())
+    }
+
+    /// Every primitive that the ray touches, by rising t ([`HitRule::Touching`]): on a shared edge
+    /// each of its primitives.
+    pub fn all_touched<'a>(&'a self, ray: &'a Ray<K>) -> AllHits<'a, P, K> {
+        self.all_hits_traced(ray, HitRule::Touching, ())
+    }
+
+    /// All hits that count by `rule`, watched by `trace`.
+    pub fn all_hits_traced<'a, T: Trace>(
+        &'a self,
+        ray: &'a Ray<K>,
+        rule: HitRule,
+        trace: T,
+    ) -> AllHits<'a, P, K, T> {
+        AllHits::new(&self.tree, &self.primitives, ray, rule, trace)
+    }
+
+    /// How many surfaces the ray crosses: the number of [`all_hits`](Self::all_hits). On a closed
+    /// mesh it is even for a ray from outside without end, and odd for one from inside.
+    pub fn count(&self, ray: &Ray<K>) -> usize {
+        self.all_hits(ray).count()
+    }
+}

@@ -1,0 +1,72 @@
+//! All hits, in order, as they are asked for.
+
+use super::{LeafWalk, Trace};
+use crate::geometry::Ray;
+use crate::primitives::{Hit, HitRule, Intersect};
+use crate::tree::KdTree;
+
+/// The hits of a ray by rising t, equal t by rising primitive id, each once.
+///
+/// Lazy: leaves are visited only as far as the next hit needs. A hit found in a leaf is yielded as
+/// soon as no later leaf can hold an earlier one; till then it is `pending`.
+pub struct AllHits<'a, P, const K: usize, T = ()> {
+    primitives: &'a P,
+    ray: &'a Ray<K>,
+    rule: HitRule,
+    walk: LeafWalk<'a, K>,
+    trace: T,
+    /// Found, not yielded; the next one last.
+    pending: Vec<Hit>,
+    last: Option<Hit>,
+}
+
+impl<'a, P: Intersect<K>, const K: usize, T: Trace> AllHits<'a, P, K, T> {
+    /// The hits of `ray` that count by `rule`.
+    pub fn new(
+        tree: &'a KdTree<K>,
+        primitives: &'a P,
+        ray: &'a Ray<K>,
+        rule: HitRule,
+        mut trace: T,
+    ) -> Self {
+        let walk = LeafWalk::new(tree, ray, &mut trace);
+        Self { primitives, ray, rule, walk, trace, pending: Vec::new(), last: None }
+    }
+
+    /// Adds the hits of the next leaf to the pending ones; false if there is no such leaf.
+    fn visit_leaf(&mut self) -> bool {
+        let t_max = self.ray.interval.t_max;
+        let Some(leaf) = self.walk.next_leaf(t_max, &mut self.trace) else { return false };
+        let Self { primitives, ray, rule, trace, pending, last, .. } = self;
+        for &id in leaf.primitives {
+            let mut t = None;
+            primitives.intersect(id, ray, *rule, &mut |hit| {
+                t = t.or(Some(hit.t));
+                // A primitive listed by several leaves is found again in each.
+                if last.is_none_or(|last| last.precedes(&hit)) {
+                    let place = pending.partition_point(|other| hit.precedes(other));
+                    if pending.get(place) != Some(&hit) {
+                        pending.insert(place, hit);
+                    }
+                }
+            });
+            trace.primitive(id, t);
+        }
+        true
+    }
+}
+
+impl<P: Intersect<K>, const K: usize, T: Trace> Iterator for AllHits<'_, P, K, T> {
+    type Item = Hit;
+
+    fn next(&mut self) -> Option<Hit> {
+        while self.pending.last().is_none_or(|next| next.t >= self.walk.t_next()) {
+            if !self.visit_leaf() {
+                break;
+            }
+        }
+        let next = self.pending.pop()?;
+        self.last = Some(next);
+        Some(next)
+    }
+}

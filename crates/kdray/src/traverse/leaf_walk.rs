@@ -1,0 +1,117 @@
+//! The stack traversal of a kd-tree (S11; Havran 2000, §4.4; Hapala & Havran 2011).
+
+use super::trace::{LeafStep, SplitStep, Trace, TraversalCase};
+use crate::geometry::{Ray, t_above, t_below};
+use crate::tree::{KdTree, MAX_DEPTH, NodeKind};
+use arrayvec::ArrayVec;
+
+/// The leaves of a tree that a ray passes, front to back.
+///
+/// Cells are disjoint but for their faces, so once a leaf has been yielded, no hit in a later one
+/// has a t below that leaf's `t_near`.
+pub struct LeafWalk<'a, const K: usize> {
+    tree: &'a KdTree<K>,
+    ray: &'a Ray<K>,
+    inverse: [f64; K],
+    stack: ArrayVec<Waiting, { MAX_DEPTH + 1 }>,
+}
+
+/// A node that the ray has yet to visit.
+#[derive(Clone, Copy)]
+struct Waiting {
+    node: u32,
+    t_near: f64,
+    t_far: f64,
+}
+
+/// A leaf that the ray passes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LeafVisit<'a> {
+    /// The ids of the leaf's primitives.
+    pub primitives: &'a [u32],
+    /// A bound below every t at which the ray is in the leaf's cell.
+    pub t_near: f64,
+    /// A bound above every t at which the ray is in the leaf's cell.
+    pub t_far: f64,
+}
+
+impl<'a, const K: usize> LeafWalk<'a, K> {
+    /// A walk along `ray`, over nothing if [`Ray::check`] refuses it.
+    pub fn new(tree: &'a KdTree<K>, ray: &'a Ray<K>, trace: &mut impl Trace) -> Self {
+        let interval = if ray.check().is_ok() { tree.bounds.slab(ray) } else { None };
+        trace.root(interval);
+        let mut stack = ArrayVec::new();
+        if let Some(interval) = interval {
+            stack.push(Waiting { node: 0, t_near: interval.t_min, t_far: interval.t_max });
+        }
+        Self { tree, ray, inverse: ray.direction.map(|d| 1.0 / d), stack }
+    }
+
+    /// A bound that no hit in the leaves to come is below; infinite at the end.
+    #[inline]
+    pub fn t_next(&self) -> f64 {
+        self.stack.last().map_or(f64::INFINITY, |waiting| waiting.t_near)
+    }
+
+    /// The next leaf, unless the walk is over or no t up to `t_limit` lies in it.
+    #[inline]
+    pub fn next_leaf(&mut self, t_limit: f64, trace: &mut impl Trace) -> Option<LeafVisit<'a>> {
+        let Waiting { mut node, t_near, mut t_far } = self.stack.pop()?;
+        if t_near > t_limit {
+            self.stack.clear();
+            trace.finish_early(t_limit, t_near);
+            return None;
+        }
+        trace.pop(node, t_near);
+        loop {
+            match self.tree.nodes[node as usize].kind() {
+                NodeKind::Inner { axis, split, above } => {
+                    let split_position = f64::from(split);
+                    // In the plane of a parallel ray this is 0 · inf = NaN: no comparison below
+                    // holds, and both children are visited in the whole interval.
+                    let t_split = (split_position - self.ray.origin[axis]) * self.inverse[axis];
+                    let forward = self.inverse[axis] > 0.0;
+                    let (near, far) = if forward { (node + 1, above) } else { (above, node + 1) };
+                    let case = if t_split > t_far {
+                        TraversalCase::NearOnly
+                    } else if t_split < t_near {
+                        TraversalCase::FarOnly
+                    } else {
+                        TraversalCase::NearThenFar
+                    };
+                    let entered = SplitStep {
+                        node,
+                        axis,
+                        split,
+                        t_near,
+                        t_split,
+                        t_far,
+                        case,
+                        near_child: near,
+                        far_child: far,
+                        stack_depth: self.stack.len()
+                            + usize::from(case == TraversalCase::NearThenFar),
+                    };
+                    trace.split(&entered);
+                    match case {
+                        TraversalCase::NearOnly => node = near,
+                        TraversalCase::FarOnly => node = far,
+                        TraversalCase::NearThenFar => {
+                            let t_near_of_far = t_below(t_split).max(t_near);
+                            self.stack.push(Waiting { node: far, t_near: t_near_of_far, t_far });
+                            t_far = t_above(t_split).min(t_far);
+                            node = near;
+                        }
+                    }
+                }
+                NodeKind::Leaf { .. } => {
+                    let primitives = self.tree.leaf_primitives(node);
+                    let stack_depth = self.stack.len();
+                    let count = primitives.len();
+                    trace.leaf(&LeafStep { node, t_near, t_far, primitives: count, stack_depth });
+                    return Some(LeafVisit { primitives, t_near, t_far });
+                }
+            }
+        }
+    }
+}

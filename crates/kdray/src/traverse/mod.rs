@@ -1,0 +1,18 @@
+//! From a ray to the leaves it passes, in order, and to its hits.
+//!
+//! [`LeafWalk`] is the one traversal (S11): closest, any and all hits differ only in what they do
+//! with the leaves that it yields. The walk is *conservative*: intervals are closed and widened by
+//! 2^-38 of t, so that neither the rounding of a plane's t nor that of a hit's t (2^-39 at most,
+//! see [`crate::exact`]) keeps it from a leaf whose cell holds a hit.
+
+mod all_hits;
+mod closest;
+mod leaf_walk;
+mod naive;
+mod trace;
+
+pub use all_hits::AllHits;
+pub use closest::{any_hit, closest_hit};
+pub use leaf_walk::{LeafVisit, LeafWalk};
+pub use naive::Naive;
+pub use trace::{Counters, LeafStep, SplitStep, Step, StepRecorder, Trace, TraversalCase};

@@ -1,0 +1,170 @@
+//! Watching a traversal: counts for heat maps, steps for lectures.
+
+use crate::geometry::Interval;
+
+/// The lecture's cases of S11: how t_split lies to the node's interval.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TraversalCase {
+    /// t_split > t_far: go on in the near child, drop the far one.
+    NearOnly,
+    /// t_near ≤ t_split ≤ t_far: the near child first, the far child onto the stack.
+    NearThenFar,
+    /// t_split < t_near: only the far child.
+    FarOnly,
+}
+
+/// A visit of an inner node.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SplitStep {
+    /// The node's index.
+    pub node: u32,
+    /// The axis that the plane is perpendicular to.
+    pub axis: usize,
+    /// Where the plane lies on it.
+    pub split: f32,
+    /// Where the ray enters the node's box.
+    pub t_near: f64,
+    /// Where the ray meets the plane: infinite for a ray parallel to it, NaN for one within it.
+    pub t_split: f64,
+    /// Where the ray leaves the node's box.
+    pub t_far: f64,
+    /// Which children are visited.
+    pub case: TraversalCase,
+    /// The child that the ray meets first.
+    pub near_child: u32,
+    /// The other child.
+    pub far_child: u32,
+    /// How many nodes wait on the stack after this step.
+    pub stack_depth: usize,
+}
+
+/// A visit of a leaf.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LeafStep {
+    /// The node's index.
+    pub node: u32,
+    /// Where the ray enters the leaf's box.
+    pub t_near: f64,
+    /// Where the ray leaves it.
+    pub t_far: f64,
+    /// How many primitives the leaf lists.
+    pub primitives: usize,
+    /// How many nodes wait on the stack.
+    pub stack_depth: usize,
+}
+
+/// Something that watches one query. Every method does nothing by default, and `()` watches
+/// nothing at no cost.
+pub trait Trace {
+    /// The root's box was tested: the ray's interval in it, or `None` for a miss.
+    fn root(&mut self, _interval: Option<Interval>) {}
+    /// An inner node was visited.
+    fn split(&mut self, _step: &SplitStep) {}
+    /// A leaf was visited.
+    fn leaf(&mut self, _step: &LeafStep) {}
+    /// A primitive was tested; `t` is that of its hit, if any.
+    fn primitive(&mut self, _id: u32, _t: Option<f64>) {}
+    /// A waiting node was taken from the stack.
+    fn pop(&mut self, _node: u32, _t_near: f64) {}
+    /// The waiting nodes were dropped: the best hit, at `t`, is nearer than the next, at `t_near`.
+    fn finish_early(&mut self, _t: f64, _t_near: f64) {}
+}
+
+impl Trace for () {}
+
+/// Counts what a query costs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counters {
+    /// Inner nodes visited.
+    pub splits: u64,
+    /// Leaves visited.
+    pub leaves: u64,
+    /// Primitives tested, as often as they were.
+    pub primitives: u64,
+}
+
+impl Counters {
+    /// Inner nodes and leaves visited.
+    pub fn nodes(&self) -> u64 {
+        self.splits + self.leaves
+    }
+}
+
+impl Trace for Counters {
+    fn split(&mut self, _step: &SplitStep) {
+        self.splits += 1;
+    }
+
+    fn leaf(&mut self, _step: &LeafStep) {
+        self.leaves += 1;
+    }
+
+    fn primitive(&mut self, _id: u32, _t: Option<f64>) {
+        self.primitives += 1;
+    }
+}
+
+/// One thing that a traversal did.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Step {
+    /// The root's box was tested: the ray's interval in it, or `None` for a miss.
+    Root(Option<Interval>),
+    /// An inner node was visited.
+    Split(SplitStep),
+    /// A leaf was visited.
+    Leaf(LeafStep),
+    /// A primitive was tested.
+    Primitive {
+        /// Its index.
+        id: u32,
+        /// The parameter of its hit, if any.
+        t: Option<f64>,
+    },
+    /// A waiting node was taken from the stack.
+    Pop {
+        /// The node's index.
+        node: u32,
+        /// Where the ray enters its box.
+        t_near: f64,
+    },
+    /// The waiting nodes were dropped, because a hit at `t` is nearer than the next of them.
+    FinishEarly {
+        /// The best hit's parameter.
+        t: f64,
+        /// Where the ray enters the next node that waited.
+        t_near: f64,
+    },
+}
+
+/// Keeps every step of a query.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct StepRecorder {
+    /// The steps in the order they were taken.
+    pub steps: Vec<Step>,
+}
+
+impl Trace for StepRecorder {
+    fn root(&mut self, interval: Option<Interval>) {
+        self.steps.push(Step::Root(interval));
+    }
+
+    fn split(&mut self, step: &SplitStep) {
+        self.steps.push(Step::Split(*step));
+    }
+
+    fn leaf(&mut self, step: &LeafStep) {
+        self.steps.push(Step::Leaf(*step));
+    }
+
+    fn primitive(&mut self, id: u32, t: Option<f64>) {
+        self.steps.push(Step::Primitive { id, t });
+    }
+
+    fn pop(&mut self, node: u32, t_near: f64) {
+        self.steps.push(Step::Pop { node, t_near });
+    }
+
+    fn finish_early(&mut self, t: f64, t_near: f64) {
+        self.steps.push(Step::FinishEarly { t, t_near });
+    }
+}
