@@ -138,6 +138,9 @@ impl Accumulator {
 impl Scaled {
     /// The quotient as an f64: infinite or zero if it lies beyond the range.
     pub fn divided_by(self, divisor: Self) -> f64 {
+        if self.mantissa == 0.0 {
+            return 0.0;
+        }
         let exponent = self.exponent - divisor.exponent;
         let half = exponent / 2;
         self.mantissa / divisor.mantissa * power_of_two(half) * power_of_two(exponent - half)

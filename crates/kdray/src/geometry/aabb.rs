@@ -101,8 +101,8 @@ impl<const K: usize> Aabb<K> {
     /// the lecture's t_min < t_max, touching an edge or a corner counts.
     ///
     /// A ray parallel to a slab (a component of zero or negative zero) is inside it for all t or
-    /// for none; one that runs in a face is inside. The interval is widened by a relative error
-    /// bound, so that no rounding excludes a t for which the exact point lies in the box.
+    /// for none; one that runs in a face is inside. The interval, the ray's own included, is widened
+    /// by 2^-38 of t, so that no rounding excludes a t for which the exact point lies in the box.
     ///
     /// The lecture's worked example, a box from (−2, −2, 4) to (2, 2, 9):
     /// ```
@@ -114,7 +114,8 @@ impl<const K: usize> Aabb<K> {
     /// assert!((interval.t_min - 4.0).abs() < 1e-9 && (interval.t_max - 5.0).abs() < 1e-9);
     /// ```
     pub fn slab(&self, ray: &Ray<K>) -> Option<Interval> {
-        let mut inside = ray.interval;
+        let Interval { t_min, t_max } = ray.interval;
+        let mut inside = Interval { t_min: t_below(t_min), t_max: t_above(t_max) };
         for axis in 0..K {
             let (e, d) = (ray.origin[axis], ray.direction[axis]);
             let (min, max) = (f64::from(self.min[axis]), f64::from(self.max[axis]));

@@ -2,16 +2,19 @@
 
 /// How far, relative to t, the computed parameter of a plane (three roundings in f64) or of a hit
 /// (2^-39 at most, see [`crate::exact`]) may be from the exact one, with room to spare.
-const T_SLACK: f64 = 1.0 / (1u64 << 38) as f64;
+const RELATIVE_SLACK: f64 = 1.0 / (1u64 << 38) as f64;
 
-/// A bound that the exact t of a computed one is not below.
+/// The same for parameters so small that they have lost digits to underflow.
+const ABSOLUTE_SLACK: f64 = f64::MIN_POSITIVE;
+
+/// A bound that the exact t of a computed one is not below. Infinities and NaN stay.
 #[inline]
 pub(crate) fn t_below(t: f64) -> f64 {
-    if t.is_finite() { t - t.abs() * T_SLACK } else { t }
+    if t.is_finite() { t - (t.abs() * RELATIVE_SLACK + ABSOLUTE_SLACK) } else { t }
 }
 
-/// A bound that the exact t of a computed one is not above.
+/// A bound that the exact t of a computed one is not above. Infinities and NaN stay.
 #[inline]
 pub(crate) fn t_above(t: f64) -> f64 {
-    if t.is_finite() { t + t.abs() * T_SLACK } else { t }
+    if t.is_finite() { t + (t.abs() * RELATIVE_SLACK + ABSOLUTE_SLACK) } else { t }
 }

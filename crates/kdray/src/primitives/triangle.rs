@@ -43,11 +43,14 @@ pub fn intersect_triangle(
     let w = den - u - v;
 
     let edges = e1.abs().max(e2.abs()).max_element();
-    let scale = d.abs().element_sum() * edges * edges.max(s.abs().max_element());
+    let (d_scale, s_scale) = (d.abs().element_sum() * edges, edges.max(s.abs().max_element()));
+    let scale = d_scale * s_scale;
     let error = EDGE_ERROR * scale;
     let (low, high) = (u.min(v).min(w), u.max(v).max(w));
-    // Far from overflow and underflow the bound holds, and no value is NaN.
-    let bound_holds = (1e-250..1e300).contains(&scale);
+    // Far from overflow and underflow, of the inner products too, the bound holds, and no value is
+    // NaN.
+    let bound_holds =
+        scale < 1e300 && scale > 1e-250 && d_scale > 1e-200 && edges * s_scale > 1e-200;
     if bound_holds && low < -error && high > error {
         return None;
     }
@@ -56,7 +59,7 @@ pub fn intersect_triangle(
     }
 
     let t_times_den = q.dot(e2);
-    let good = |value: f64, terms: f64| terms <= GOOD * value.abs();
+    let good = |value: f64, terms: f64| terms <= GOOD * value.abs() && terms > 1e-280;
     if !good(den, terms(d, e2, e1)) || !good(t_times_den, terms(s, e1, e2)) {
         return intersect_exactly(corners, id, ray, rule);
     }

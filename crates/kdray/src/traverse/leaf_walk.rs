@@ -44,7 +44,7 @@ impl<'a, const K: usize> LeafWalk<'a, K> {
         if let Some(interval) = interval {
             stack.push(Waiting { node: 0, t_near: interval.t_min, t_far: interval.t_max });
         }
-        Self { tree, ray, inverse: ray.direction.map(|d| 1.0 / d), stack }
+        Self { tree, ray, inverse: ray.direction.map(inverse), stack }
     }
 
     /// A bound that no hit in the leaves to come is below; infinite at the end.
@@ -67,8 +67,9 @@ impl<'a, const K: usize> LeafWalk<'a, K> {
             match self.tree.nodes[node as usize].kind() {
                 NodeKind::Inner { axis, split, above } => {
                     let split_position = f64::from(split);
-                    // In the plane of a parallel ray this is 0 · inf = NaN: no comparison below
-                    // holds, and both children are visited in the whole interval.
+                    // For a parallel ray this is infinite, on the side where its origin is not;
+                    // for one within the plane 0 · inf = NaN: no comparison below holds, and both
+                    // children are visited in the whole interval.
                     let t_split = (split_position - self.ray.origin[axis]) * self.inverse[axis];
                     let forward = self.inverse[axis] > 0.0;
                     let (near, far) = if forward { (node + 1, above) } else { (above, node + 1) };
@@ -114,4 +115,11 @@ impl<'a, const K: usize> LeafWalk<'a, K> {
             }
         }
     }
+}
+
+/// 1 / d, infinite with the sign of d for both zeros. NaN, which makes every split of the axis
+/// undecided, for a d so small that its inverse overflows.
+fn inverse(d: f64) -> f64 {
+    let inverse = 1.0 / d;
+    if inverse.is_infinite() && d != 0.0 { f64::NAN } else { inverse }
 }
