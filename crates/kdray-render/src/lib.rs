@@ -1,1 +1,19 @@
-//! Placeholder.
+//! Pictures of a model by backward ray tracing (Whitted 1980), with [`kdray`] finding the hits.
+//!
+//! The way of a picture: a [`World`] (a model and the kd-tree over its triangles), seen by a
+//! camera (its own, or one that [`frame`] chooses), is [`render`]ed with [`RenderOptions`] to a
+//! [`Picture`] of named float layers, which is written as PNG or OpenEXR.
+
+mod camera;
+mod light;
+mod options;
+mod picture;
+mod render;
+mod world;
+
+pub use camera::{CameraError, View, frame};
+pub use light::{LightError, default_lights, point_light_for};
+pub use options::{Background, PictureKind, RenderOptions};
+pub use picture::{Channel, Layer, Picture, PngDepth, Samples, WriteError};
+pub use render::{RenderError, RenderProgress, render};
+pub use world::{World, WorldError};

@@ -2,6 +2,7 @@
 //!
 //! [`load`] reads OBJ, PLY, STL, OFF, glTF and GLB files, also compressed ones, into a [`Model`].
 
+pub mod built_in;
 mod camera;
 mod light;
 mod material;

@@ -1,0 +1,125 @@
+//! What to render, and how well.
+
+use glam::{DVec3, Vec3};
+
+/// What a render computes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum PictureKind {
+    /// Light: materials, lights, shadows, mirrors and glass.
+    #[default]
+    Shaded,
+    /// The distance from the ray's start to the hit, in world units; infinite for a miss.
+    Depth,
+    /// The shading normal, turned to the viewer, in world space; zero for a miss.
+    Normal,
+    /// The id of the triangle; `u32::MAX` for a miss.
+    PrimitiveId,
+    /// The share of the sky that the surface sees, 1 where nothing is near.
+    AmbientOcclusion,
+    /// What the tree costs a ray: nodes visited plus primitives tested.
+    Cost,
+    /// Inner nodes and leaves visited by a ray.
+    CostNodes,
+    /// Primitives tested against a ray.
+    CostPrimitives,
+}
+
+/// What rays see that hit nothing. Colours are linear RGB.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Background {
+    /// One colour everywhere.
+    Color([f32; 3]),
+    /// A sky: `horizon` below and at the horizon, blending to `zenith` overhead (+y).
+    Gradient {
+        /// The colour of directions with y ≤ 0.
+        horizon: [f32; 3],
+        /// The colour of +y.
+        zenith: [f32; 3],
+    },
+}
+
+/// What to render, and how well.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RenderOptions {
+    /// Pixels across.
+    pub width: usize,
+    /// Pixels down.
+    pub height: usize,
+    /// Camera rays per pixel, stratified over it; a single one goes through the pixel's middle.
+    /// Depth, normal and primitive id always take one.
+    pub samples: u32,
+    /// How many times a ray may be mirrored or refracted; 0 shows surfaces by direct light only.
+    pub max_bounces: u32,
+    /// What to compute, and what a PNG shows.
+    pub picture: PictureKind,
+    /// Computes every [`PictureKind`]'s layers, for OpenEXR.
+    pub all_layers: bool,
+    /// Chooses the random numbers: the same seed gives the same picture.
+    pub seed: u64,
+    /// What rays see that hit nothing.
+    pub background: Background,
+    /// Radiance that reaches every surface from all around, Whitted's ambient light.
+    pub ambient: [f32; 3],
+    /// Rays per camera ray by which the surroundings may block ambient light; 0 leaves it as it is.
+    pub ambient_rays: u32,
+    /// How far blocking surfaces count, in world units, for `ambient_rays` and
+    /// [`PictureKind::AmbientOcclusion`]; `None` is a tenth of the scene's diagonal.
+    pub occlusion_distance: Option<f64>,
+    /// Shadow rays per camera ray and rectangular light, spread over the light.
+    pub light_samples: u32,
+    /// What a PNG multiplies colours by. OpenEXR keeps them as they are.
+    pub exposure: f32,
+}
+
+impl Default for RenderOptions {
+    fn default() -> Self {
+        Self {
+            width: 960,
+            height: 540,
+            samples: 16,
+            max_bounces: 8,
+            picture: PictureKind::Shaded,
+            all_layers: false,
+            seed: 0,
+            background: Background::default(),
+            ambient: [0.2, 0.22, 0.26],
+            ambient_rays: 1,
+            occlusion_distance: None,
+            light_samples: 2,
+            exposure: 1.0,
+        }
+    }
+}
+
+impl Default for Background {
+    fn default() -> Self {
+        Self::Gradient { horizon: [0.75, 0.82, 0.9], zenith: [0.18, 0.32, 0.62] }
+    }
+}
+
+impl Background {
+    /// The radiance that arrives against the unit vector `direction`.
+    pub(crate) fn radiance(&self, direction: DVec3) -> Vec3 {
+        match *self {
+            Self::Color(color) => color.into(),
+            Self::Gradient { horizon, zenith } => {
+                let height = direction.y.clamp(0.0, 1.0).sqrt() as f32;
+                Vec3::from(horizon).lerp(zenith.into(), height)
+            }
+        }
+    }
+}
+
+impl PictureKind {
+    /// Every kind once.
+    pub const ALL: [Self; 8] = [
+        Self::Shaded,
+        Self::Depth,
+        Self::Normal,
+        Self::PrimitiveId,
+        Self::AmbientOcclusion,
+        Self::Cost,
+        Self::CostNodes,
+        Self::CostPrimitives,
+    ];
+}

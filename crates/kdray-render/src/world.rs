@@ -1,0 +1,146 @@
+//! A model that rays can be shot at.
+
+use kdray::{BuildError, BuildOptions, BuildProgress, MeshError, Scene, TriangleMesh};
+use kdray_scene::{Material, Model, TextureRef};
+use std::ops::ControlFlow;
+use thiserror::Error;
+
+/// A model and the kd-tree over its triangles.
+#[derive(Clone, Debug)]
+pub struct World {
+    model: Model,
+    scene: Scene,
+    /// What triangles look like that have no material.
+    default_material: Material,
+}
+
+/// Why a model cannot be rendered.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum WorldError {
+    /// The mesh is refused.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+    /// The tree could not be built.
+    #[error(transparent)]
+    Build(#[from] BuildError),
+    /// A per-triangle list is neither empty nor as long as the list of triangles.
+    #[error("the model has {triangles} triangles, but {found} {list}; give one for each, or none")]
+    Length {
+        /// Which list.
+        list: &'static str,
+        /// Its length.
+        found: usize,
+        /// How many triangles there are.
+        triangles: usize,
+    },
+    /// A triangle names a material that is not there.
+    #[error("triangle {triangle} uses material {material}, but there are only {materials}")]
+    NoSuchMaterial {
+        /// The index of the triangle.
+        triangle: usize,
+        /// The material index it holds.
+        material: u32,
+        /// How many materials there are.
+        materials: usize,
+    },
+    /// A material names a texture that is not there.
+    #[error("material {material} uses texture {texture}, but there are only {textures}")]
+    NoSuchTexture {
+        /// The index of the material.
+        material: usize,
+        /// The texture index it holds.
+        texture: usize,
+        /// How many textures there are.
+        textures: usize,
+    },
+    /// A texture has no pixels, or not as many as its size says.
+    #[error("texture {texture} is {width} x {height}, but holds {pixels} pixels")]
+    TextureSize {
+        /// The index of the texture.
+        texture: usize,
+        /// Its width.
+        width: usize,
+        /// Its height.
+        height: usize,
+        /// How many pixels it holds.
+        pixels: usize,
+    },
+}
+
+impl World {
+    /// Builds the tree over the model's triangles, tells `progress` how far it is, and stops if
+    /// that answers [`ControlFlow::Break`].
+    ///
+    /// # Errors
+    /// What in the model contradicts itself, or why there is no tree.
+    pub fn new(
+        mut model: Model,
+        options: &BuildOptions,
+        progress: &(dyn Fn(BuildProgress) -> ControlFlow<()> + Sync),
+    ) -> Result<Self, WorldError> {
+        check(&model)?;
+        let vertices = std::mem::take(&mut model.vertices);
+        let triangles = std::mem::take(&mut model.triangles);
+        let mesh = TriangleMesh::new(vertices, triangles)?;
+        let scene = Scene::build_with_progress(mesh, options, progress)?;
+        Ok(Self { model, scene, default_material: Material::default() })
+    }
+
+    /// The triangles with the tree over them.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// The model, whose `vertices` and `triangles` have moved to
+    /// [`scene().primitives()`](Scene::primitives).
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// What a triangle looks like.
+    pub fn material(&self, triangle: u32) -> &Material {
+        let id = self.model.material_ids.get(triangle as usize);
+        id.and_then(|&id| self.model.materials.get(id as usize)).unwrap_or(&self.default_material)
+    }
+}
+
+fn check(model: &Model) -> Result<(), WorldError> {
+    let triangles = model.triangles.len();
+    for (list, found) in [
+        ("normals", model.normals.len()),
+        ("texture coordinates", model.uvs.len()),
+        ("colors", model.colors.len()),
+        ("material ids", model.material_ids.len()),
+    ] {
+        if found != 0 && found != triangles {
+            return Err(WorldError::Length { list, found, triangles });
+        }
+    }
+    check_materials(model)?;
+    for (texture, image) in model.textures.iter().enumerate() {
+        let (width, height, pixels) = (image.width, image.height, image.pixels.len());
+        if pixels == 0 || width.checked_mul(height) != Some(pixels) {
+            return Err(WorldError::TextureSize { texture, width, height, pixels });
+        }
+    }
+    Ok(())
+}
+
+fn check_materials(model: &Model) -> Result<(), WorldError> {
+    let materials = model.materials.len();
+    for (triangle, &material) in model.material_ids.iter().enumerate() {
+        if material as usize >= materials {
+            return Err(WorldError::NoSuchMaterial { triangle, material, materials });
+        }
+    }
+    let textures = model.textures.len();
+    for (material, m) in model.materials.iter().enumerate() {
+        let used = [m.base_color_texture, m.metallic_roughness_texture, m.emission_texture];
+        for TextureRef { texture, .. } in used.into_iter().flatten() {
+            if texture >= textures {
+                return Err(WorldError::NoSuchTexture { material, texture, textures });
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,5 @@
+//! Scenes made by code.
+
+mod showcase;
+
+pub use showcase::showcase;
