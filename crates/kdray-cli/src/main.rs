@@ -1,2 +1,21 @@
-//! Placeholder.
-fn main() {}
+//! The command `kdray`: render, measure, draw and query kd-trees over meshes.
+
+mod args;
+mod build;
+mod cli;
+mod commands;
+mod error;
+mod interrupt;
+mod load;
+mod output;
+mod progress;
+mod table;
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    match cli::run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => error.report(),
+    }
+}

@@ -1,0 +1,19 @@
+//! Arguments that several commands share.
+
+mod build_args;
+mod scene_args;
+mod values;
+mod view_args;
+
+pub(crate) use build_args::BuildArgs;
+pub(crate) use scene_args::SceneArgs;
+pub(crate) use values::{Size, numbers};
+pub(crate) use view_args::ViewArgs;
+
+/// How a table is printed.
+#[derive(Clone, Copy, Debug, clap::Args)]
+pub(crate) struct TableArgs {
+    /// Print JSON instead of a table
+    #[arg(long)]
+    pub(crate) json: bool,
+}

@@ -1,0 +1,16 @@
+//! `kdray draw`.
+
+use crate::{args::SceneArgs, cli::Globals, error::CliError, load};
+
+/// Draw the tree: its cells and its splitting planes
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    scene: SceneArgs,
+}
+
+/// Loads the scene.
+pub(crate) fn run(args: &Args, globals: &Globals) -> Result<(), CliError> {
+    load::model(&args.scene, globals)?;
+    Ok(())
+}

@@ -1,0 +1,16 @@
+//! `kdray render`.
+
+use crate::{args::SceneArgs, cli::Globals, error::CliError, load};
+
+/// Render a picture by backward ray tracing
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    scene: SceneArgs,
+}
+
+/// Loads the scene.
+pub(crate) fn run(args: &Args, globals: &Globals) -> Result<(), CliError> {
+    load::model(&args.scene, globals)?;
+    Ok(())
+}

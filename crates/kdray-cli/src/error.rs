@@ -1,0 +1,84 @@
+//! What can go wrong, and the exit code that says so.
+
+use crate::interrupt;
+use kdray::{BuildError, MeshError};
+use std::{
+    io::{self, Write},
+    path::{Path, PathBuf},
+    process::ExitCode,
+};
+use thiserror::Error;
+
+/// Why a command failed.
+#[derive(Debug, Error)]
+pub(crate) enum CliError {
+    /// The data is well formed, but not what it must be.
+    #[error("{0}")]
+    Data(String),
+    /// Arguments that do not go together, or name what is not there.
+    #[error("{0}")]
+    Usage(String),
+    /// An input that could not be read, or was refused.
+    #[error("{}: {reason}", path.display())]
+    Input {
+        /// The file, `-` for standard input.
+        path: PathBuf,
+        /// What is wrong with it, and where.
+        reason: String,
+    },
+    /// Triangles that no tree can be built over.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+    /// The build of the tree failed or was stopped.
+    #[error(transparent)]
+    Build(#[from] BuildError),
+    /// An output file that could not be written.
+    #[error("{}: cannot be written: {source}", path.display())]
+    Output {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// Standard output could not be written.
+    #[error("standard output: {0}")]
+    Stdout(#[source] io::Error),
+    /// Ctrl-C.
+    #[error("interrupted")]
+    Interrupted,
+}
+
+impl CliError {
+    /// An input that could not be read, or was refused.
+    pub(crate) fn input(path: &Path, reason: impl ToString) -> Self {
+        Self::Input { path: path.to_owned(), reason: reason.to_string() }
+    }
+
+    /// An output file that could not be written.
+    pub(crate) fn output(path: &Path, source: io::Error) -> Self {
+        Self::Output { path: path.to_owned(), source }
+    }
+
+    /// The exit code, as `kdray --help` lists them.
+    fn exit_code(&self) -> u8 {
+        match self {
+            Self::Stdout(error) if error.kind() == io::ErrorKind::BrokenPipe => 0,
+            Self::Data(_) => 1,
+            Self::Usage(_) => 2,
+            Self::Interrupted | Self::Build(BuildError::Cancelled) => interrupt::EXIT_CODE,
+            Self::Input { .. } | Self::Mesh(_) | Self::Build(_) => 3,
+            Self::Output { .. } | Self::Stdout(_) => 4,
+        }
+    }
+
+    /// Says on standard error what went wrong. Who reads standard output may stop reading, as
+    /// `head` does; that is no error.
+    pub(crate) fn report(&self) -> ExitCode {
+        let code = self.exit_code();
+        if code != 0 {
+            // Nothing can be done if standard error is closed too.
+            let _ = writeln!(io::stderr().lock(), "error: {self}");
+        }
+        ExitCode::from(code)
+    }
+}

@@ -1,0 +1,50 @@
+//! Ctrl-C: ends the process at once, unless someone watches for it and ends in order.
+
+use std::{
+    ops::ControlFlow,
+    sync::atomic::{AtomicBool, AtomicUsize, Ordering},
+};
+
+/// What the shell expects of a process that Ctrl-C ended: 128 + SIGINT.
+pub(crate) const EXIT_CODE: u8 = 130;
+
+static REQUESTED: AtomicBool = AtomicBool::new(false);
+static WATCHERS: AtomicUsize = AtomicUsize::new(0);
+
+/// Begins to listen for Ctrl-C and termination requests.
+pub(crate) fn listen() {
+    let stop = || {
+        let again = REQUESTED.swap(true, Ordering::SeqCst);
+        if again || WATCHERS.load(Ordering::SeqCst) == 0 {
+            std::process::exit(EXIT_CODE.into());
+        }
+    };
+    // Without a handler Ctrl-C ends the process, which is good enough.
+    let _ = ctrlc::set_handler(stop);
+}
+
+/// While it lives, the first Ctrl-C only makes [`requested`] true; a second one ends the process.
+pub(crate) struct Watch(());
+
+/// Promises to ask [`requested`] or [`flow`] often.
+#[must_use = "Ctrl-C is watched only while the value lives"]
+pub(crate) fn watch() -> Watch {
+    WATCHERS.fetch_add(1, Ordering::SeqCst);
+    Watch(())
+}
+
+impl Drop for Watch {
+    fn drop(&mut self) {
+        WATCHERS.fetch_sub(1, Ordering::SeqCst);
+    }
+}
+
+/// Whether Ctrl-C was pressed.
+pub(crate) fn requested() -> bool {
+    REQUESTED.load(Ordering::SeqCst)
+}
+
+/// The same for progress callbacks.
+pub(crate) fn flow() -> ControlFlow<()> {
+    if requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+}
