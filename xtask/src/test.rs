@@ -1,0 +1,14 @@
+//! `cargo xtask test`.
+
+use crate::steps::Steps;
+
+/// Runs every test. Examples are run by a test of the crate `kdray-tests`.
+pub(crate) fn run() -> Result<(), String> {
+    let mut steps = Steps::new();
+    steps.cargo("tests and examples", "test --workspace --all-targets", &[])?;
+    steps.cargo("tests of the documentation", "test --workspace --doc", &[])?;
+    let bare = "test -p kdray --no-default-features --lib";
+    steps.cargo("tests, library without default features", bare, &[])?;
+    steps.finish("test");
+    Ok(())
+}
