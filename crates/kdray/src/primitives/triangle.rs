@@ -22,6 +22,9 @@ const EDGE_ERROR: f64 = 64.0 * ROUNDING;
 /// 8 roundings leave a relative error below 2^-50 · 512 = 2^-41, and t one below 2^-39.
 const GOOD: f64 = 512.0;
 
+/// The largest error of an edge function, relative to den, at which u and v are good.
+const BARYCENTRIC_ERROR: f64 = 1.0 / (1u64 << 36) as f64;
+
 /// The hit of `ray` on one triangle, if it counts by `rule` and its t lies in the ray's interval.
 ///
 /// Möller and Trumbore's test (1997) with s = o − a; the signs of U, V and W are those of the real
@@ -42,28 +45,37 @@ pub fn intersect_triangle(
     let (u, v, den) = (p.dot(s), q.dot(d), p.dot(e1));
     let w = den - u - v;
 
+    // The filter. Far from overflow and underflow, of the inner products too, the error bound
+    // holds, and no value is NaN.
     let edges = e1.abs().max(e2.abs()).max_element();
     let (d_scale, s_scale) = (d.abs().element_sum() * edges, edges.max(s.abs().max_element()));
     let scale = d_scale * s_scale;
-    let error = EDGE_ERROR * scale;
-    let (low, high) = (u.min(v).min(w), u.max(v).max(w));
-    // Far from overflow and underflow, of the inner products too, the bound holds, and no value is
-    // NaN.
     let bound_holds =
         scale < 1e300 && scale > 1e-250 && d_scale > 1e-200 && edges * s_scale > 1e-200;
-    if bound_holds && low < -error && high > error {
+    let error = if bound_holds { EDGE_ERROR * scale } else { f64::INFINITY };
+    let (low, high) = (u.min(v).min(w), u.max(v).max(w));
+    if low < -error && high > error {
         return None;
     }
-    if !(bound_holds && (low > error || high < -error)) {
-        return intersect_exactly(corners, id, ray, rule);
+    let surely_inside = low > error || high < -error;
+    if !surely_inside && !is_hit_exactly([w, u, v], error, corners, ray, rule) {
+        return None;
     }
 
-    let t_times_den = q.dot(e2);
+    let t_den = q.dot(e2);
     let good = |value: f64, terms: f64| terms <= GOOD * value.abs() && terms > 1e-280;
-    if !good(den, terms(d, e2, e1)) || !good(t_times_den, terms(s, e1, e2)) {
-        return intersect_exactly(corners, id, ray, rule);
-    }
-    hit_at(t_times_den / den, u / den, v / den, den, id, ray)
+    let good = bound_holds
+        && error <= BARYCENTRIC_ERROR * den.abs()
+        && good(den, terms(d, e2, e1))
+        && good(t_den, terms(s, e1, e2));
+    let (t, u, v, front) = if good {
+        (t_den / den, (u / den).clamp(0.0, 1.0), (v / den).clamp(0.0, 1.0), den > 0.0)
+    } else {
+        values_exactly(corners, ray)
+    };
+    let side = if front { Side::Front } else { Side::Back };
+    let hit = Hit { t, primitive_id: id, u, v: v.min(1.0 - u), side };
+    (t.is_finite() && ray.interval.contains(t)).then_some(hit)
 }
 
 /// The sum of the absolute values of the terms of (a x b) · c.
@@ -73,41 +85,145 @@ fn terms(a: DVec3, b: DVec3, c: DVec3) -> f64 {
     (a.yzx() * b.zxy() + a.zxy() * b.yzx()).dot(c)
 }
 
-#[inline]
-fn hit_at(t: f64, u: f64, v: f64, den: f64, id: u32, ray: &Ray<3>) -> Option<Hit> {
-    let side = if den > 0.0 { Side::Front } else { Side::Back };
-    let hit = Hit { t, primitive_id: id, u, v, side };
-    (t.is_finite() && ray.interval.contains(t)).then_some(hit)
-}
-
-/// The same without any rounding before the final quotients.
+/// Whether the triangle is hit, from the edge functions W, U, V where their signs are sure, and
+/// without rounding where they are not.
 #[cold]
 #[inline(never)]
-fn intersect_exactly(corners: &[[f32; 3]; 3], id: u32, ray: &Ray<3>, rule: HitRule) -> Option<Hit> {
-    let [a, b, c] = corners.map(|p| p.map(f64::from));
-    let edges = [(b, c), (c, a), (a, b)];
-    let [w, u, v] = edges.map(|(p, q)| edge_function(ray, p, q));
-    let signs = [w.sign(), u.sign(), v.sign()];
-    let den_sign = common_sign(signs)?;
-    if rule == HitRule::Crossing {
-        let turned = [0, 1, 2].map(|i| turned_edge_sign(ray, edges[i].0, edges[i].1, signs[i]));
-        if turned[0] == Ordering::Equal || turned != [turned[0]; 3] {
-            return None;
+fn is_hit_exactly(
+    values: [f64; 3],
+    error: f64,
+    corners: &[[f32; 3]; 3],
+    ray: &Ray<3>,
+    rule: HitRule,
+) -> bool {
+    let edges = directed_edges(corners);
+    let signs = [0, 1, 2].map(|i| {
+        if values[i] > error {
+            Ordering::Greater
+        } else if values[i] < -error {
+            Ordering::Less
+        } else {
+            edge_function(ray, edges[i].0, edges[i].1).sign()
         }
+    });
+    if !share_a_sign(signs) {
+        return false;
     }
+    if rule == HitRule::Touching {
+        return true;
+    }
+    let turned = [0, 1, 2].map(|i| turned_edge_sign(ray, edges[i].0, edges[i].1, signs[i]));
+    turned[0] != Ordering::Equal && turned == [turned[0]; 3]
+}
+
+/// t, u, v and whether the front is hit, without rounding before the final quotients.
+#[cold]
+#[inline(never)]
+fn values_exactly(corners: &[[f32; 3]; 3], ray: &Ray<3>) -> (f64, f64, f64, bool) {
+    let [w, u, v] = directed_edges(corners).map(|(p, q)| edge_function(ray, p, q));
     let mut den = w;
     den.add_all(&u);
     den.add_all(&v);
+    let front = den.sign() == Ordering::Greater;
     let den = den.value();
-    let t = volume(ray.origin, [a, b, c]).value().divided_by(den);
-    let (u, v) = (u.value().divided_by(den), v.value().divided_by(den));
-    let den_side = if den_sign == Ordering::Greater { 1.0 } else { -1.0 };
-    hit_at(t, u, v, den_side, id, ray)
+    let t = volume(ray.origin, corners.map(|p| p.map(f64::from))).value().divided_by(den);
+    (t, u.value().divided_by(den), v.value().divided_by(den), front)
 }
 
-/// The sign that the numbers which are not zero share; `None` if they do not, or all are zero.
-fn common_sign(signs: [Ordering; 3]) -> Option<Ordering> {
+/// The edges of W, U and V: each runs opposite a, b and c.
+fn directed_edges(corners: &[[f32; 3]; 3]) -> [([f64; 3], [f64; 3]); 3] {
+    let [a, b, c] = corners.map(|p| p.map(f64::from));
+    [(b, c), (c, a), (a, b)]
+}
+
+/// Whether the numbers that are not zero share a sign, and there are any.
+fn share_a_sign(signs: [Ordering; 3]) -> bool {
     let mut others = signs.into_iter().filter(|&sign| sign != Ordering::Equal);
-    let first = others.next()?;
-    others.all(|sign| sign == first).then_some(first)
+    let first = others.next();
+    first.is_some() && others.all(|sign| Some(sign) == first)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CORNERS: [[f32; 3]; 3] = [[0.0, 0.0, 5.0], [4.0, 0.0, 5.0], [0.0, 4.0, 5.0]];
+    const UP: [f64; 3] = [0.0, 0.0, 1.0];
+
+    fn hit_from(origin: [f64; 3], rule: HitRule) -> Option<Hit> {
+        intersect_triangle(&CORNERS, 7, &Ray::new(origin, UP), rule)
+    }
+
+    #[test]
+    fn a_point_inside_has_its_barycentrics() {
+        let hit = hit_from([1.0, 2.0, 0.0], HitRule::Touching).unwrap();
+        let expected = Hit { t: 5.0, primitive_id: 7, u: 0.25, v: 0.5, side: Side::Back };
+        assert_eq!(hit, expected);
+        let from_above = Ray::new([1.0, 2.0, 9.0], [0.0, 0.0, -2.0]);
+        let hit = intersect_triangle(&CORNERS, 7, &from_above, HitRule::Crossing).unwrap();
+        assert_eq!(hit, Hit { t: 2.0, side: Side::Front, ..expected });
+    }
+
+    #[test]
+    fn edges_and_vertices_belong_to_the_triangle() {
+        for origin in [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0], [2.0, 2.0, 0.0]] {
+            assert!(hit_from(origin, HitRule::Touching).is_some(), "{origin:?}");
+        }
+        let beside = f64::from_bits(1);
+        assert_eq!(hit_from([-beside, 1.0, 0.0], HitRule::Touching), None);
+        assert!(hit_from([beside, 1.0, 0.0], HitRule::Touching).is_some());
+    }
+
+    #[test]
+    fn a_fan_around_a_vertex_is_crossed_once() {
+        let ring = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]];
+        let ray = Ray::new([0.0; 3], UP);
+        let crossed = (0..4).filter(|&i| {
+            let (p, q): ([f32; 2], [f32; 2]) = (ring[i], ring[(i + 1) % 4]);
+            let fan = [[0.0, 0.0, 2.0], [p[0], p[1], 2.0], [q[0], q[1], 2.0]];
+            intersect_triangle(&fan, 0, &ray, HitRule::Crossing).is_some()
+        });
+        assert_eq!(crossed.count(), 1);
+    }
+
+    #[test]
+    fn what_has_no_area_or_is_seen_edge_on_is_missed() {
+        let needle = [[0.0, 0.0, 1.0], [0.0, 0.0, 2.0], [0.0, 0.0, 3.0]];
+        let ray = Ray::new([0.0; 3], UP);
+        let in_plane = Ray::new([1.0, 1.0, 5.0], [1.0, 0.0, 0.0]);
+        for rule in [HitRule::Touching, HitRule::Crossing] {
+            assert_eq!(intersect_triangle(&needle, 0, &ray, rule), None);
+            assert_eq!(intersect_triangle(&CORNERS, 0, &in_plane, rule), None);
+        }
+    }
+
+    #[test]
+    fn t_keeps_its_digits_where_terms_cancel() {
+        // The origin lies 2^-80 below a plane a million away from the coordinate origin.
+        let k = 1_048_576.0_f32;
+        let corners = [[k, 0.0, 0.0], [0.0, k, 0.0], [0.0, 0.0, k]];
+        let third = f64::from(k) / 4.0;
+        let origin = [third, third, 2.0 * third - 1e-10];
+        let hit = intersect_triangle(&corners, 0, &Ray::new(origin, UP), HitRule::Touching);
+        let exact = f64::from(k) - third - third - origin[2];
+        assert_eq!(hit.unwrap().t, exact);
+        assert!(exact > 0.0);
+    }
+
+    #[test]
+    fn numbers_out_of_range_of_the_filter_are_decided_too() {
+        for scale in [1e-38_f32, 1e-30, 1e30, 1e38] {
+            let corners = CORNERS.map(|p| p.map(|x| x * scale / 8.0));
+            let at = |x: f64| x * f64::from(scale) / 8.0;
+            for length in [1e-300, 1e-200, 1.0, 1e200, 1e300] {
+                let ray = Ray::new([at(1.0), at(1.0), 0.0], [0.0, 0.0, length]);
+                let hit = intersect_triangle(&corners, 0, &ray, HitRule::Touching);
+                let t = at(5.0) / length;
+                match hit {
+                    Some(hit) => assert!((hit.t - t).abs() <= 1e-6 * t, "{scale} {length}"),
+                    None => assert!(t > 1e307, "{scale} {length}"),
+                }
+            }
+        }
+    }
 }
