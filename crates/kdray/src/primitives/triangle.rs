@@ -213,8 +213,8 @@ mod tests {
     #[test]
     fn numbers_out_of_range_of_the_filter_are_decided_too() {
         for scale in [1e-38_f32, 1e-30, 1e30, 1e38] {
-            let corners = CORNERS.map(|p| p.map(|x| x * scale / 8.0));
-            let at = |x: f64| x * f64::from(scale) / 8.0;
+            let corners = CORNERS.map(|p| p.map(|x| x * (scale / 8.0)));
+            let at = |x: f64| x * f64::from(scale / 8.0);
             for length in [1e-300, 1e-200, 1.0, 1e200, 1e300] {
                 let ray = Ray::new([at(1.0), at(1.0), 0.0], [0.0, 0.0, length]);
                 let hit = intersect_triangle(&corners, 0, &ray, HitRule::Touching);
