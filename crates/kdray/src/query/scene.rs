@@ -89,23 +89,23 @@ impl<P: Intersect<K>, const K: usize> Scene<P, K> {
 
     /// Every crossing of a surface, once, by rising t ([`HitRule::Crossing`]), found as they are
     /// asked for.
-    pub fn all_hits<'a>(&'a self, ray: &'a Ray<K>) -> AllHits<'a, P, K> {
+    pub fn all_hits(&self, ray: &Ray<K>) -> AllHits<'_, P, K> {
         self.all_hits_traced(ray, HitRule::Crossing, ())
     }
 
     /// Every primitive that the ray touches, by rising t ([`HitRule::Touching`]): on a shared edge
     /// each of its primitives.
-    pub fn all_touched<'a>(&'a self, ray: &'a Ray<K>) -> AllHits<'a, P, K> {
+    pub fn all_touched(&self, ray: &Ray<K>) -> AllHits<'_, P, K> {
         self.all_hits_traced(ray, HitRule::Touching, ())
     }
 
     /// All hits that count by `rule`, watched by `trace`.
-    pub fn all_hits_traced<'a, T: Trace>(
-        &'a self,
-        ray: &'a Ray<K>,
+    pub fn all_hits_traced<T: Trace>(
+        &self,
+        ray: &Ray<K>,
         rule: HitRule,
         trace: T,
-    ) -> AllHits<'a, P, K, T> {
+    ) -> AllHits<'_, P, K, T> {
         AllHits::new(&self.tree, &self.primitives, ray, rule, trace)
     }
 

@@ -11,7 +11,7 @@ use crate::tree::KdTree;
 /// soon as no later leaf can hold an earlier one; till then it is `pending`.
 pub struct AllHits<'a, P, const K: usize, T = ()> {
     primitives: &'a P,
-    ray: &'a Ray<K>,
+    ray: Ray<K>,
     rule: HitRule,
     walk: LeafWalk<'a, K>,
     trace: T,
@@ -25,12 +25,12 @@ impl<'a, P: Intersect<K>, const K: usize, T: Trace> AllHits<'a, P, K, T> {
     pub fn new(
         tree: &'a KdTree<K>,
         primitives: &'a P,
-        ray: &'a Ray<K>,
+        ray: &Ray<K>,
         rule: HitRule,
         mut trace: T,
     ) -> Self {
         let walk = LeafWalk::new(tree, ray, &mut trace);
-        Self { primitives, ray, rule, walk, trace, pending: Vec::new(), last: None }
+        Self { primitives, ray: *ray, rule, walk, trace, pending: Vec::new(), last: None }
     }
 
     /// Adds the hits of the next leaf to the pending ones; false if there is no such leaf.

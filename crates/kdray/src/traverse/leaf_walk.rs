@@ -11,7 +11,7 @@ use arrayvec::ArrayVec;
 /// has a t below that leaf's `t_near`.
 pub struct LeafWalk<'a, const K: usize> {
     tree: &'a KdTree<K>,
-    ray: &'a Ray<K>,
+    ray: Ray<K>,
     inverse: [f64; K],
     stack: ArrayVec<Waiting, { MAX_DEPTH + 1 }>,
 }
@@ -37,14 +37,14 @@ pub struct LeafVisit<'a> {
 
 impl<'a, const K: usize> LeafWalk<'a, K> {
     /// A walk along `ray`, over nothing if [`Ray::check`] refuses it.
-    pub fn new(tree: &'a KdTree<K>, ray: &'a Ray<K>, trace: &mut impl Trace) -> Self {
+    pub fn new(tree: &'a KdTree<K>, ray: &Ray<K>, trace: &mut impl Trace) -> Self {
         let interval = if ray.check().is_ok() { tree.bounds.slab(ray) } else { None };
         trace.root(interval);
         let mut stack = ArrayVec::new();
         if let Some(interval) = interval {
             stack.push(Waiting { node: 0, t_near: interval.t_min, t_far: interval.t_max });
         }
-        Self { tree, ray, inverse: ray.direction.map(inverse), stack }
+        Self { tree, ray: *ray, inverse: ray.direction.map(inverse), stack }
     }
 
     /// A bound that no hit in the leaves to come is below; infinite at the end.
