@@ -28,10 +28,10 @@ pub fn volume(origin: [f64; 3], [a, b, c]: [[f64; 3]; 3]) -> Accumulator {
 
 /// Adds a · (b x c).
 fn add_triple_product(sum: &mut Accumulator, a: [f64; 3], b: [f64; 3], c: [f64; 3]) {
-    for i in 0..3 {
+    for (i, a) in a.into_iter().enumerate() {
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        sum.add([a[i], b[j], c[k]]);
-        sum.subtract([a[i], b[k], c[j]]);
+        sum.add([a, b[j], c[k]]);
+        sum.subtract([a, b[k], c[j]]);
     }
 }
 
@@ -44,17 +44,24 @@ pub fn turned_edge_sign(ray: &Ray<3>, p: [f64; 3], q: [f64; 3], sign: Ordering) 
     if sign != Ordering::Equal {
         return oriented(sign, ray.direction[k]);
     }
-    cross_sign(ray.origin, q, p, (v, k)).then_with(|| cross_sign(ray.origin, q, p, (k, u)))
+    let component = |plane| cross_component(ray.origin, q, p, plane).sign();
+    component((v, k)).then_with(|| component((k, u)))
 }
 
-/// The sign of a'_i b'_j − a'_j b'_i with a' = a − o, b' = b − o.
-fn cross_sign(o: [f64; 3], a: [f64; 3], b: [f64; 3], (i, j): (usize, usize)) -> Ordering {
+/// a'_i b'_j − a'_j b'_i with a' = a − o and b' = b − o: the component of a' x b' that is
+/// perpendicular to the axes i and j.
+pub fn cross_component<const K: usize>(
+    o: [f64; K],
+    a: [f64; K],
+    b: [f64; K],
+    (i, j): (usize, usize),
+) -> Accumulator {
     let mut sum = Accumulator::default();
     for (p, q) in [(a, b), (b, o), (o, a)] {
         sum.add([p[i], q[j], 1.0]);
         sum.subtract([p[j], q[i], 1.0]);
     }
-    sum.sign()
+    sum
 }
 
 /// In 2-D: d x p', on which side of the line of the ray the point p lies.

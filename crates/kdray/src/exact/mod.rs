@@ -24,4 +24,6 @@ mod accumulator;
 mod edge;
 
 pub use accumulator::{Accumulator, Scaled};
-pub use edge::{edge_function, side_of_ray, turned_edge_sign, turned_side_sign, volume};
+pub use edge::{
+    cross_component, edge_function, side_of_ray, turned_edge_sign, turned_side_sign, volume,
+};

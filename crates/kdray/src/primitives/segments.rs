@@ -1,12 +1,15 @@
 //! Line segments in the plane: the 2-D counterpart of triangles.
 
 use super::{Hit, HitRule, Intersect, Primitives, Side};
-use crate::exact::{side_of_ray, turned_side_sign};
+use crate::exact::{cross_component, side_of_ray, turned_side_sign};
 use crate::geometry::{Aabb, Ray, clipped_bounds};
 use std::cmp::Ordering;
 use thiserror::Error;
 
-/// Segments from a to b, for teaching and for plans. Their sides are decided exactly.
+/// Segments from a to b, for teaching and for plans. A touch is a meeting in one point; a ray
+/// along a segment misses it.
+///
+/// All is decided and computed without rounding, and there is no filter: that is slow, and simple.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Segments {
     segments: Vec<[[f32; 2]; 2]>,
@@ -65,11 +68,11 @@ impl Intersect<2> for Segments {
             return;
         }
         // o + t d = a + u (b − a): with x the cross product, u = (d x a') / (d x a' − d x b') and
-        // t = (a' x (b − a)) / (d x (b − a)).
+        // t = (a' x (b − a)) / (d x (b − a)), where a' x (b − a) = a' x b'.
         let mut den = side_b;
         den.subtract_all(&side_a);
         let u = -side_a.value().divided_by(den.value());
-        let t = a_cross_edge(ray.origin, a, b).value().divided_by(den.value());
+        let t = cross_component(ray.origin, a, b, (0, 1)).value().divided_by(den.value());
         let side = if den.sign() == Ordering::Greater { Side::Front } else { Side::Back };
         if t.is_finite() && ray.interval.contains(t) {
             report(Hit { t, primitive_id: id, u, v: 0.0, side });
@@ -77,12 +80,49 @@ impl Intersect<2> for Segments {
     }
 }
 
-/// a' x (b − a) = a' x b', with a' and b' relative to the ray's origin.
-fn a_cross_edge(o: [f64; 2], a: [f64; 2], b: [f64; 2]) -> crate::exact::Accumulator {
-    let mut sum = crate::exact::Accumulator::default();
-    for (p, q) in [(a, b), (b, o), (o, a)] {
-        sum.add([p[0], q[1], 1.0]);
-        sum.subtract([p[1], q[0], 1.0]);
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn hits(ends: [[f32; 2]; 2], ray: &Ray<2>, rule: HitRule) -> Vec<Hit> {
+        let mut hits = Vec::new();
+        let segments = Segments::new(vec![ends]).unwrap();
+        segments.intersect(0, ray, rule, &mut |hit| hits.push(hit));
+        hits
     }
-    sum
+
+    #[test]
+    fn a_ray_meets_a_segment_at_its_share() {
+        let ray = Ray::new([0.0, 1.0], [2.0, 0.0]);
+        for rule in [HitRule::Touching, HitRule::Crossing] {
+            let found = hits([[4.0, 0.0], [4.0, 4.0]], &ray, rule);
+            assert_eq!((found.len(), found[0].t, found[0].u), (1, 2.0, 0.25));
+            assert_eq!(found[0].side, Side::Front, "the left of the segment");
+            assert_eq!(hits([[4.0, 4.0], [4.0, 0.0]], &ray, rule)[0].side, Side::Back);
+            assert!(hits([[4.0, 2.0], [4.0, 4.0]], &ray, rule).is_empty());
+            assert!(hits([[3.0, 1.0], [4.0, 1.0]], &ray, rule).is_empty(), "along the ray");
+        }
+    }
+
+    #[test]
+    fn a_corner_is_touched_twice_and_crossed_once_or_not_at_all() {
+        for d in [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0], [1.0, 1.0], [-3.0, 1.0]] {
+            let corner = [d[0] as f32 * 2.0, d[1] as f32 * 2.0];
+            let side = [-corner[1], corner[0]];
+            let ray = Ray::new([0.0, 0.0], d);
+            let count = |ends: [[f32; 2]; 2], rule| hits(ends, &ray, rule).len();
+            let (p, q) = (
+                [corner[0] + side[0], corner[1] + side[1]],
+                [corner[0] - side[0], corner[1] - side[1]],
+            );
+            assert_eq!(count([p, corner], HitRule::Touching), 1);
+            assert_eq!(count([corner, q], HitRule::Touching), 1);
+            let through =
+                count([p, corner], HitRule::Crossing) + count([corner, q], HitRule::Crossing);
+            assert_eq!(through, 1, "{d:?}");
+            let bounce =
+                count([p, corner], HitRule::Crossing) + count([corner, p], HitRule::Crossing);
+            assert_eq!(bounce % 2, 0, "{d:?}");
+        }
+    }
 }
