@@ -4,11 +4,22 @@
 
 pub mod built_in;
 mod camera;
+mod error;
+mod format;
+mod formats;
+mod input;
 mod light;
+mod load;
 mod material;
+mod mesh;
 mod model;
+mod number;
+mod srgb;
 
 pub use camera::{Camera, Projection};
+pub use error::{LoadError, Place};
+pub use format::Format;
 pub use light::{Cone, Light};
+pub use load::{LoadOptions, load, read};
 pub use material::{AlphaMode, Material, Texture, TextureRef, Wrap};
 pub use model::Model;

@@ -1,0 +1,168 @@
+//! The header of a PLY file.
+
+use super::Encoding;
+use crate::LoadError;
+use crate::input::Scanner;
+
+/// What a file says that it holds.
+pub(super) struct Header {
+    pub(super) encoding: Encoding,
+    pub(super) elements: Vec<Element>,
+}
+
+/// A list of like things, such as the vertices.
+pub(super) struct Element {
+    pub(super) name: String,
+    pub(super) count: u64,
+    pub(super) properties: Vec<Property>,
+}
+
+/// A value, or a list of them, that each thing of an element has.
+pub(super) struct Property {
+    pub(super) name: String,
+    /// The type of a list's length; none for a single value.
+    pub(super) length: Option<Scalar>,
+    pub(super) scalar: Scalar,
+}
+
+/// The types of values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Scalar {
+    I8,
+    U8,
+    I16,
+    U16,
+    I32,
+    U32,
+    F32,
+    F64,
+}
+
+/// More properties or elements than this make no sense.
+const MAX_DECLARATIONS: usize = 4096;
+
+impl Header {
+    pub(super) fn read(scanner: &mut Scanner<'_>) -> Result<Self, LoadError> {
+        let mut encoding = None;
+        let mut elements: Vec<Element> = Vec::new();
+        let mut declarations = 0;
+        let mut first = true;
+        let mut bytes = Vec::new();
+        loop {
+            if !scanner.line(&mut bytes)? {
+                return Err(scanner.error_in_line("the file ends within its header"));
+            }
+            let fail = |reason: &str| Err(scanner.error_in_previous_line(reason));
+            let line = String::from_utf8_lossy(&bytes);
+            let words: Vec<&str> = line.split_ascii_whitespace().collect();
+            if std::mem::take(&mut first) {
+                if words != ["ply"] {
+                    return fail("not a PLY file: it does not begin with the line `ply`");
+                }
+                continue;
+            }
+            declarations += 1;
+            if declarations > MAX_DECLARATIONS {
+                return fail("a header of too many lines");
+            }
+            match words.as_slice() {
+                [] | ["comment" | "obj_info", ..] => {}
+                ["format", name, _version] => match Encoding::from_name(name) {
+                    Some(named) => encoding = Some(named),
+                    None => return fail("an unknown format; known are ascii and binary ones"),
+                },
+                ["element", name, count] => {
+                    let Ok(count) = count.parse() else {
+                        return fail("the count of an element is no number");
+                    };
+                    let properties = Vec::new();
+                    elements.push(Element { name: (*name).to_owned(), count, properties });
+                }
+                ["property", rest @ ..] => {
+                    let Some(property) = Property::from_words(rest) else {
+                        return fail("a property of an unknown type");
+                    };
+                    let Some(element) = elements.last_mut() else {
+                        return fail("a property before any element");
+                    };
+                    element.properties.push(property);
+                }
+                ["end_header"] => break,
+                _ => return fail("not a header line"),
+            }
+        }
+        match encoding {
+            Some(encoding) => Ok(Self { encoding, elements }),
+            None => Err(scanner.error_in_previous_line("the header has no format line")),
+        }
+    }
+}
+
+impl Property {
+    fn from_words(words: &[&str]) -> Option<Self> {
+        let (length, scalar, name) = match words {
+            ["list", length, scalar, name] => (Some(Scalar::from_name(length)?), scalar, name),
+            [scalar, name] => (None, scalar, name),
+            _ => return None,
+        };
+        Some(Self { name: (*name).to_owned(), length, scalar: Scalar::from_name(scalar)? })
+    }
+}
+
+impl Scalar {
+    fn from_name(name: &str) -> Option<Self> {
+        Some(match name {
+            "char" | "int8" => Self::I8,
+            "uchar" | "uint8" => Self::U8,
+            "short" | "int16" => Self::I16,
+            "ushort" | "uint16" => Self::U16,
+            "int" | "int32" => Self::I32,
+            "uint" | "uint32" => Self::U32,
+            "float" | "float32" => Self::F32,
+            "double" | "float64" => Self::F64,
+            _ => return None,
+        })
+    }
+
+    /// What stands for 1 where a value from 0 to 1 is stored in this type.
+    fn unit(self) -> f32 {
+        match self {
+            Self::I8 => 127.0,
+            Self::U8 => 255.0,
+            Self::I16 => 32_767.0,
+            Self::U16 => 65_535.0,
+            Self::I32 | Self::U32 => 255.0,
+            Self::F32 | Self::F64 => 1.0,
+        }
+    }
+}
+
+impl Element {
+    /// Where the single values of these names are among the element's single values.
+    pub(super) fn scalars<const N: usize>(&self, names: &[&str; N]) -> Option<[usize; N]> {
+        let scalars = || self.properties.iter().filter(|property| property.length.is_none());
+        let mut found = [0; N];
+        for (slot, name) in found.iter_mut().zip(names) {
+            *slot = scalars().position(|property| property.name == *name)?;
+        }
+        Some(found)
+    }
+
+    /// Where the list of one of these names is among the element's lists.
+    pub(super) fn list(&self, names: &[&str]) -> Option<usize> {
+        let mut lists = self.properties.iter().filter(|property| property.length.is_some());
+        lists.position(|property| names.contains(&property.name.as_str()))
+    }
+
+    /// Where the colour is, and the value of a full channel.
+    pub(super) fn color(&self) -> Option<([usize; 3], f32)> {
+        let names = [
+            ["red", "green", "blue"],
+            ["diffuse_red", "diffuse_green", "diffuse_blue"],
+            ["r", "g", "b"],
+        ];
+        let names = names.iter().find(|names| self.scalars(names).is_some())?;
+        let red = self.properties.iter().find(|property| property.name == names[0])?;
+        Some((self.scalars(names)?, red.scalar.unit()))
+    }
+}

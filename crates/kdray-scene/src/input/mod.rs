@@ -1,0 +1,11 @@
+//! Bytes on their way in: decompression, limits, words and lines.
+
+mod decompress;
+mod limit;
+mod scanner;
+mod siblings;
+
+pub(crate) use decompress::{decompressed, peek};
+pub(crate) use limit::Limited;
+pub(crate) use scanner::Scanner;
+pub(crate) use siblings::Siblings;
