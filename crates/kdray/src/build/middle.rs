@@ -1,0 +1,15 @@
+//! Strategy A (S7): the middle of the box's longest side.
+
+use super::plane::SplitPlane;
+use super::steps::{ChoosePlane, NodeView};
+
+/// The spatial median.
+pub(super) struct Middle;
+
+impl<const K: usize> ChoosePlane<K> for Middle {
+    type Kept = ();
+
+    fn choose(&self, node: &NodeView<'_, K>, (): &()) -> Option<SplitPlane> {
+        SplitPlane::middle(node.cell, node.cell.longest_axis())
+    }
+}

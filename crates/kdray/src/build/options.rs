@@ -1,0 +1,88 @@
+//! What to build.
+
+use super::CostModel;
+use crate::tree::MAX_DEPTH;
+
+/// How the splitting plane is chosen (S7 to S10).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Strategy {
+    /// The middle of the box's longest side.
+    Middle,
+    /// The median of the primitives' centroids on the longest side: as many left as right.
+    Median,
+    /// The axes in turn, X → Y → Z → X, each cut in the middle of the box.
+    RoundRobin,
+    /// The plane of least cost by the surface area heuristic.
+    #[default]
+    Sah,
+}
+
+/// How [`Strategy::Sah`] counts the primitives on the sides of its candidates. All builders give
+/// the same tree bit for bit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum SahBuilder {
+    /// Sorted once, then swept: O(N log N) (Wald & Havran 2006).
+    #[default]
+    Sweep,
+    /// Every candidate is compared with every primitive: O(N²). What the sweep is tested with.
+    Naive,
+}
+
+/// What to build.
+///
+/// ```
+/// use kdray::{BuildOptions, Strategy};
+/// let options = BuildOptions { leaf_size: 4, ..BuildOptions::for_strategy(Strategy::Median) };
+/// assert_eq!(options.depth_limit(1024), 21);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BuildOptions {
+    /// How the splitting plane is chosen.
+    pub strategy: Strategy,
+    /// What the surface area heuristic weighs.
+    pub cost: CostModel,
+    /// How the surface area heuristic counts.
+    pub sah_builder: SahBuilder,
+    /// A node with no more primitives than this is not cut (step 2).
+    pub leaf_size: usize,
+    /// No leaf is deeper than this (step 2); `None`: 8 + 1.3·log2 N. At most [`MAX_DEPTH`].
+    pub max_depth: Option<usize>,
+}
+
+impl Default for BuildOptions {
+    fn default() -> Self {
+        Self::for_strategy(Strategy::Sah)
+    }
+}
+
+impl BuildOptions {
+    /// Entries that all leaves' lists may have together, per primitive and besides.
+    ///
+    /// Each node has a part of this quota; a split whose children would hold more than the node's
+    /// part is refused, and the children share it in proportion to what they hold. Trees of real
+    /// scenes stay far below it (SAH: 2 to 6 per primitive); it is there for primitives that no
+    /// plane separates, which would otherwise double with every level.
+    const QUOTA: (u64, u64) = (32, 1024);
+
+    /// Good settings for a strategy. [`Strategy::Sah`] itself knows when to stop; the others need
+    /// a leaf size that does not make them cut around every vertex down to the depth limit.
+    pub fn for_strategy(strategy: Strategy) -> Self {
+        let leaf_size = if strategy == Strategy::Sah { 1 } else { 8 };
+        let sah_builder = SahBuilder::default();
+        Self { strategy, cost: CostModel::default(), sah_builder, leaf_size, max_depth: None }
+    }
+
+    /// The depth that no leaf of a tree over `count` primitives exceeds.
+    pub fn depth_limit(&self, count: usize) -> usize {
+        let log2 = (count.max(1) as f64).log2();
+        self.max_depth.unwrap_or((8.0 + 1.3 * log2) as usize).min(MAX_DEPTH)
+    }
+
+    /// How many entries the leaves of a tree over `count` primitives have together at most:
+    /// 32 a primitive and 1024 besides, but fewer than 2^30.
+    pub fn reference_quota(count: usize) -> u64 {
+        let (per_primitive, besides) = Self::QUOTA;
+        let quota = (count as u64).saturating_mul(per_primitive).saturating_add(besides);
+        quota.min(u64::from(crate::tree::Node::MAX_INDEX))
+    }
+}

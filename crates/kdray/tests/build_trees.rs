@@ -1,0 +1,131 @@
+//! Trees of every strategy over hard and easy input: they hold what they must, within bounds, and
+//! do not depend on the builder or the number of threads.
+
+mod build_common;
+
+use build_common::{all_options, balls, mesh, random_soup, small_plans, small_soups};
+use kdray::build::SahBuilder;
+use kdray::primitives::Primitives;
+use kdray::tree::MAX_DEPTH;
+use kdray::{BuildOptions, CostModel, KdTree, Strategy};
+
+/// The tree, after checks that hold for all.
+fn checked_tree<const K: usize>(
+    name: &str,
+    primitives: &impl Primitives<K>,
+    options: &BuildOptions,
+) -> KdTree<K> {
+    let tree = KdTree::build(primitives, options).unwrap();
+    tree.validate(primitives).unwrap_or_else(|error| panic!("{name}, {options:?}: {error}"));
+    let count = primitives.count();
+    let stats = tree.stats(count, &options.cost);
+    assert!(stats.max_depth <= options.depth_limit(count).min(MAX_DEPTH), "{name}, {options:?}");
+    let quota = BuildOptions::reference_quota(count) as usize;
+    assert!(stats.references <= quota, "{name}, {options:?}: {}", stats.references);
+    tree
+}
+
+#[test]
+fn every_strategy_builds_valid_trees() {
+    for options in all_options() {
+        for (name, soup) in small_soups() {
+            checked_tree(name, &mesh(soup), &options);
+        }
+        for (name, plan) in small_plans() {
+            checked_tree(name, &plan, &options);
+        }
+        checked_tree("balls", &balls(300), &options);
+    }
+}
+
+#[test]
+fn the_sweep_and_the_naive_builder_give_the_same_tree() {
+    let tuned = BuildOptions::default();
+    let lecture = BuildOptions { cost: CostModel::LECTURE, leaf_size: 3, ..tuned };
+    for sweep in [tuned, lecture] {
+        let naive = BuildOptions { sah_builder: SahBuilder::Naive, ..sweep };
+        for (name, soup) in small_soups() {
+            let mesh = mesh(soup);
+            let tree = checked_tree(name, &mesh, &sweep);
+            assert!(tree == KdTree::build(&mesh, &naive).unwrap(), "{name}, {:?}", sweep.cost);
+        }
+        for (name, plan) in small_plans() {
+            let tree = checked_tree(name, &plan, &sweep);
+            assert!(tree == KdTree::build(&plan, &naive).unwrap(), "{name}, {:?}", sweep.cost);
+        }
+        let balls = balls(200);
+        assert!(KdTree::build(&balls, &sweep).unwrap() == KdTree::build(&balls, &naive).unwrap());
+    }
+}
+
+#[test]
+fn no_depth_is_deeper_than_the_stack() {
+    let mesh = mesh(random_soup(200, 0.5, false, 11));
+    for options in all_options() {
+        let deep = BuildOptions { max_depth: Some(1000), leaf_size: 0, ..options };
+        assert_eq!(deep.depth_limit(200), MAX_DEPTH);
+        checked_tree("deep", &mesh, &deep);
+        let flat = BuildOptions { max_depth: Some(0), ..options };
+        assert_eq!(checked_tree("flat", &mesh, &flat).nodes().len(), 1);
+    }
+}
+
+#[test]
+fn identical_triangles_neither_hang_nor_take_all_memory() {
+    let triangle = [[0.1, 0.2, 0.3], [1.0, 0.1, 0.2], [0.3, 0.9, 0.8]];
+    let mesh = mesh(vec![triangle; 20_000]);
+    for options in all_options() {
+        let stats = KdTree::build(&mesh, &options).unwrap().stats(20_000, &options.cost);
+        assert!(stats.references_per_primitive <= 33.0, "{options:?}");
+        assert!(stats.nodes < 100_000, "{options:?}: {} nodes", stats.nodes);
+    }
+}
+
+#[test]
+fn real_scenes_do_not_meet_the_quota() {
+    let mesh = mesh(random_soup(20_000, 0.02, false, 12));
+    for options in all_options() {
+        let tree = checked_tree("soup", &mesh, &options);
+        let stats = tree.stats(20_000, &options.cost);
+        let per_primitive = stats.references_per_primitive;
+        assert!(per_primitive < 16.0, "{options:?}: {per_primitive}");
+    }
+}
+
+#[test]
+fn the_median_puts_as_many_left_as_right() {
+    let mesh = mesh(random_soup(1001, 0.0, false, 13));
+    let once = BuildOptions { max_depth: Some(1), ..BuildOptions::for_strategy(Strategy::Median) };
+    let tree = checked_tree("points", &mesh, &once);
+    let sides = [1, 2].map(|leaf| tree.leaf_primitives(leaf).len());
+    assert_eq!(sides, [501, 500]);
+}
+
+#[test]
+fn sah_expects_the_least_cost() {
+    let soup = random_soup(5000, 0.02, false, 14);
+    let cluster = soup.iter().map(|t| t.map(|p| p.map(|x| 0.03 * x)));
+    let mesh = mesh(soup[..500].iter().copied().chain(cluster).collect());
+    let cost = CostModel::default();
+    let expected = |strategy| {
+        let options = BuildOptions::for_strategy(strategy);
+        KdTree::build(&mesh, &options).unwrap().stats(mesh.count(), &cost).sah_cost
+    };
+    let sah = expected(Strategy::Sah);
+    for other in [Strategy::Middle, Strategy::Median, Strategy::RoundRobin] {
+        assert!(sah < 0.8 * expected(other), "{other:?}: {sah} {}", expected(other));
+    }
+}
+
+#[cfg(feature = "rayon")]
+#[test]
+fn the_number_of_threads_makes_no_difference() {
+    let mesh = mesh(random_soup(30_000, 0.02, false, 15));
+    for options in all_options() {
+        let trees = [1, 2, 3].map(|threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| KdTree::build(&mesh, &options).unwrap())
+        });
+        assert!(trees[0] == trees[1] && trees[0] == trees[2], "{options:?}");
+    }
+}
