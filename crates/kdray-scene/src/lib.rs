@@ -15,6 +15,7 @@ mod mesh;
 mod model;
 mod number;
 mod srgb;
+mod textures;
 
 pub use camera::{Camera, Projection};
 pub use error::{LoadError, Place};

@@ -19,6 +19,12 @@ pub(crate) fn parse(word: &[u8]) -> Option<f64> {
     fortran.parse().ok()
 }
 
+/// The longest start of a word that is a number, as C's `strtod` reads it.
+pub(crate) fn parse_start(word: &str) -> Option<f64> {
+    let ends = word.char_indices().map(|(at, _)| at).skip(1).take(64).collect::<Vec<_>>();
+    ends.into_iter().rev().find_map(|end| parse(&word.as_bytes()[..end]))
+}
+
 #[cfg(test)]
 mod tests {
     use super::parse;
@@ -42,6 +48,8 @@ mod tests {
         for word in ["nan", "-nan(ind)", "1.#QNAN"] {
             assert!(parse(word.as_bytes()).is_some_and(f64::is_nan), "{word}");
         }
+        assert_eq!(super::parse_start("3.1+e2"), Some(3.1));
+        assert_eq!(super::parse_start("x1"), None);
         for word in ["", "one", "1,5", "0x1", "--1", "1.2.3"] {
             assert_eq!(parse(word.as_bytes()), None, "{word}");
         }

@@ -1,6 +1,9 @@
 //! The readers, one a format.
 
+mod obj;
+mod off;
 mod ply;
+mod stl;
 
 use crate::input::Siblings;
 use crate::{Format, LoadError, LoadOptions, Model, Place};
@@ -35,11 +38,14 @@ impl Request<'_> {
 pub(crate) fn read_format(
     format: Format,
     bytes: Box<dyn Read + '_>,
-    _start: &[u8],
+    start: &[u8],
     request: &Request<'_>,
 ) -> Result<Model, LoadError> {
     match format {
+        Format::Obj => obj::read(bytes, start, request),
         Format::Ply => ply::read(bytes, request),
+        Format::Stl => stl::read(bytes, start, request),
+        Format::Off => off::read(bytes, request),
         _ => Err(LoadError::Unsupported {
             file: request.file.to_owned(),
             place: Place::Byte(0),

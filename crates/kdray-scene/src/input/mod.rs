@@ -4,8 +4,10 @@ mod decompress;
 mod limit;
 mod scanner;
 mod siblings;
+mod utf16;
 
 pub(crate) use decompress::{decompressed, peek};
 pub(crate) use limit::Limited;
 pub(crate) use scanner::Scanner;
 pub(crate) use siblings::Siblings;
+pub(crate) use utf16::utf8;

@@ -22,6 +22,8 @@ pub(crate) struct MeshBuilder<'a> {
     pub(crate) model: Model,
     /// The material of the polygons that follow.
     pub(crate) material: Option<u32>,
+    /// How the file numbers its first vertex, for messages.
+    pub(crate) first_index: i64,
     request: &'a Request<'a>,
     triangulator: Triangulator,
     points: Vec<[f32; 3]>,
@@ -39,6 +41,7 @@ impl<'a> MeshBuilder<'a> {
         Self {
             model: Model::default(),
             material: None,
+            first_index: 0,
             request,
             triangulator: Triangulator::new(),
             points: Vec::new(),
@@ -85,14 +88,15 @@ impl<'a> MeshBuilder<'a> {
         self.points.clear();
         let vertices = &self.model.vertices;
         for &Corner { vertex, .. } in corners {
+            let name = vertex.saturating_add(self.first_index);
             let Some(position) = usize::try_from(vertex).ok().and_then(|i| vertices.get(i)) else {
                 return Some(format!(
-                    "vertex index {vertex} is out of range: there are {} vertices",
+                    "vertex index {name} is out of range: there are {} vertices",
                     vertices.len()
                 ));
             };
             if !position.iter().all(|x| x.is_finite()) {
-                return Some(format!("vertex {vertex} at {position:?} is not finite"));
+                return Some(format!("vertex {name} at {position:?} is not finite"));
             }
             self.points.push(*position);
         }

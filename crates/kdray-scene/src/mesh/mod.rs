@@ -2,5 +2,7 @@
 
 mod builder;
 mod triangulate;
+mod weld;
 
 pub(crate) use builder::{Corner, MeshBuilder};
+pub(crate) use weld::Welder;

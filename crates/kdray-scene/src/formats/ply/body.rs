@@ -100,6 +100,10 @@ impl<'a> Values<'a> {
             }
             list += 1;
         }
+        // Some programs write more values than they declare; the next thing has its own line.
+        if self.encoding == Encoding::Ascii && !element.properties.is_empty() {
+            self.scanner.line(&mut self.word)?;
+        }
         Ok(())
     }
 

@@ -8,6 +8,8 @@ use crate::input::Scanner;
 pub(super) struct Header {
     pub(super) encoding: Encoding,
     pub(super) elements: Vec<Element>,
+    /// The image that texture coordinates belong to, from a comment that MeshLab writes.
+    pub(super) texture: Option<String>,
 }
 
 /// A list of like things, such as the vertices.
@@ -45,6 +47,7 @@ impl Header {
     pub(super) fn read(scanner: &mut Scanner<'_>) -> Result<Self, LoadError> {
         let mut encoding = None;
         let mut elements: Vec<Element> = Vec::new();
+        let mut texture = None;
         let mut declarations = 0;
         let mut first = true;
         let mut bytes = Vec::new();
@@ -66,6 +69,10 @@ impl Header {
                 return fail("a header of too many lines");
             }
             match words.as_slice() {
+                ["comment", "TextureFile", ..] => {
+                    let name = line.split_once("TextureFile").map_or("", |(_, name)| name.trim());
+                    texture.get_or_insert(name.to_owned());
+                }
                 [] | ["comment" | "obj_info", ..] => {}
                 ["format", name, _version] => match Encoding::from_name(name) {
                     Some(named) => encoding = Some(named),
@@ -92,7 +99,7 @@ impl Header {
             }
         }
         match encoding {
-            Some(encoding) => Ok(Self { encoding, elements }),
+            Some(encoding) => Ok(Self { encoding, elements, texture }),
             None => Err(scanner.error_in_previous_line("the header has no format line")),
         }
     }

@@ -9,7 +9,8 @@ mod header;
 use super::Request;
 use crate::input::Scanner;
 use crate::mesh::{Corner, MeshBuilder};
-use crate::{LoadError, Model, Place};
+use crate::textures::{self, TextureDecoder};
+use crate::{LoadError, Material, Model, Place, TextureRef, Wrap};
 use body::{Encoding, Row, Values};
 use header::{Element, Header};
 use std::io::Read;
@@ -27,6 +28,9 @@ pub(super) fn read(bytes: Box<dyn Read + '_>, request: &Request<'_>) -> Result<M
     let header = Header::read(&mut scanner)?;
     let mut values = Values::new(scanner, header.encoding);
     let mut builder = MeshBuilder::new(request);
+    if let Some(name) = &header.texture {
+        add_texture(name, &mut builder, request);
+    }
     let mut attributes = VertexAttributes::default();
     let mut skipped = Vec::new();
     // Faces may come before the vertices that they use; they wait.
@@ -53,6 +57,27 @@ pub(super) fn read(bytes: Box<dyn Read + '_>, request: &Request<'_>) -> Result<M
         builder.warn(format!("elements passed over: {}", skipped.join(", ")));
     }
     Ok(builder.finish())
+}
+
+/// Gives all faces a white material with the texture.
+fn add_texture(name: &str, builder: &mut MeshBuilder<'_>, request: &Request<'_>) {
+    let file = request.siblings.read(name, request.options.max_bytes);
+    let decoded = file.map_err(|error| error.to_string()).and_then(|file| {
+        TextureDecoder::default().decode(&file, textures::Encoding::Srgb, [Wrap::Repeat; 2])
+    });
+    match decoded {
+        Ok(texture) => {
+            builder.model.textures.push(texture);
+            let texture = TextureRef { texture: 0, transform: TextureRef::IDENTITY };
+            builder.model.materials.push(Material {
+                base_color: [1.0; 3],
+                base_color_texture: Some(texture),
+                ..Material::default()
+            });
+            builder.material = Some(0);
+        }
+        Err(reason) => builder.warn(format!("texture {name:?} left out: {reason}")),
+    }
 }
 
 /// Polygons read before the vertices.
@@ -124,7 +149,7 @@ fn read_faces(
         }
         if let Some((color, unit)) = color {
             let color = linear(row.pick(color), unit);
-            corners.iter_mut().for_each(|corner| corner.color = Some(color));
+            corners.iter_mut().for_each(|corner| corner.color = corner.color.or(Some(color)));
         }
         add_polygon(builder, &corners, element, index, waiting.as_deref_mut())?;
     }
