@@ -5,10 +5,15 @@
 //! [`Picture`] of named float layers, which is written as PNG or OpenEXR.
 
 mod camera;
+mod film;
 mod light;
 mod options;
 mod picture;
+mod pixel;
 mod render;
+mod sampling;
+mod shade;
+mod surface;
 mod world;
 
 pub use camera::{CameraError, View, frame};

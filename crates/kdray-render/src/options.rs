@@ -69,6 +69,8 @@ pub struct RenderOptions {
     pub light_samples: u32,
     /// What a PNG multiplies colours by. OpenEXR keeps them as they are.
     pub exposure: f32,
+    /// The cost that has the last colour of a heat map's scale; `None` is the 99.5th percentile.
+    pub heat_max: Option<f32>,
 }
 
 impl Default for RenderOptions {
@@ -87,6 +89,7 @@ impl Default for RenderOptions {
             occlusion_distance: None,
             light_samples: 2,
             exposure: 1.0,
+            heat_max: None,
         }
     }
 }

@@ -1,19 +1,26 @@
-//! Tiles in parallel.
+//! From a world and a camera to a picture, in tiles on all threads.
 
 use crate::camera::{CameraError, View};
-use crate::light::LightError;
+use crate::film::{Film, MAX_PICTURE_BYTES};
+use crate::light::{Lamp, LightError, default_lights};
 use crate::options::RenderOptions;
-use crate::picture::{Channel, Layer, Picture, Samples};
+use crate::picture::Picture;
+use crate::pixel::PixelTracer;
 use crate::world::World;
 use kdray_scene::{Camera, Light};
 use rayon::prelude::*;
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
 use thiserror::Error;
 
+/// The side of a tile in pixels.
+const TILE: usize = 16;
+
 /// How far a render is.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RenderProgress {
-    /// The part that is done, from 0 to 1.
+    /// The part that is done, from 0 to 1, never falling.
     pub fraction: f64,
     /// Tiles that are done.
     pub tiles_done: usize,
@@ -36,7 +43,7 @@ pub enum RenderError {
     },
     /// The picture would take too much memory.
     #[error(
-        "a picture of {width} x {height} would take {bytes} bytes, more than {limit}; choose a smaller size or fewer layers"
+        "a picture of {width} x {height} takes {bytes} bytes, more than {limit} or than there are; choose a smaller size or fewer layers"
     )]
     TooLarge {
         /// Pixels across.
@@ -55,19 +62,24 @@ pub enum RenderError {
     #[error(transparent)]
     Light(#[from] LightError),
     /// An option is out of its range.
-    #[error("the option `{option}` {reason}")]
+    #[error("the option `{option}` must be {must}")]
     Option {
         /// Which one.
         option: &'static str,
-        /// What is wrong, and what to give.
-        reason: &'static str,
+        /// What it must be.
+        must: &'static str,
     },
 }
 
-/// Renders `world` as `camera` sees it.
+/// Renders `world` as `camera` sees it by `lights`, or by [`default_lights`] if there are none.
+///
+/// Tiles are shared among the threads of the current rayon pool; the picture is the same bit for
+/// bit for any number of them. `progress` is told after each tile, from any thread but never from
+/// two at once. If it answers [`ControlFlow::Break`], tiles that are not begun are left out, and
+/// the picture says so in [`complete`](Picture::complete).
 ///
 /// # Errors
-/// See [`RenderError`].
+/// What about the size, the camera, the lights or the options is unusable, before any work.
 pub fn render(
     world: &World,
     camera: &Camera,
@@ -75,42 +87,97 @@ pub fn render(
     options: &RenderOptions,
     progress: &(dyn Fn(RenderProgress) -> ControlFlow<()> + Sync),
 ) -> Result<Picture, RenderError> {
-    let _ = lights;
     let (width, height) = (options.width, options.height);
     if width == 0 || height == 0 {
         return Err(RenderError::EmptyPicture { width, height });
     }
+    check(options)?;
     let view = View::new(camera, width as f64 / height as f64)?;
-    let values: Vec<[f32; 4]> = (0..width * height)
-        .into_par_iter()
-        .map(|pixel| {
-            let x = ((pixel % width) as f64 + 0.5) / width as f64;
-            let y = ((pixel / width) as f64 + 0.5) / height as f64;
-            let ray = view.ray(x, y);
-            match world.scene().closest_hit(&ray) {
-                Some(hit) => {
-                    let n = glam::DVec3::from(
-                        world.scene().primitives().geometric_normal(hit.primitive_id),
-                    );
-                    let shade = n.normalize_or_zero().dot(ray.direction.into()).abs() as f32;
-                    [shade, shade, shade, 1.0]
-                }
-                None => options.background.radiance(ray.direction.into()).extend(1.0).to_array(),
-            }
-        })
-        .collect();
-    let channel = |i: usize, name| Channel {
-        name,
-        samples: Samples::F32(values.iter().map(|v| v[i]).collect()),
-    };
-    let channels = vec![channel(0, "R"), channel(1, "G"), channel(2, "B"), channel(3, "A")];
-    let _ = progress(RenderProgress { fraction: 1.0, tiles_done: 1, tiles: 1, rays: 0 });
-    Ok(Picture {
+    let lamps =
+        if lights.is_empty() { Lamp::all(&default_lights(camera)) } else { Lamp::all(lights) }?;
+    let film = Film::new(options).ok_or_else(|| RenderError::TooLarge {
         width,
         height,
-        kind: options.picture,
-        complete: true,
-        exposure: options.exposure,
-        layers: vec![Layer { name: "color", channels }],
-    })
+        bytes: Film::bytes(options),
+        limit: MAX_PICTURE_BYTES,
+    })?;
+
+    let tiles = Tiles { width, height };
+    let shared = Mutex::new(Shared { film, progress: RenderProgress::default() });
+    let stopped = AtomicBool::new(false);
+    (0..tiles.count()).into_par_iter().for_each(|index| {
+        if stopped.load(Ordering::Relaxed) {
+            return;
+        }
+        let (columns, rows) = tiles.tile(index);
+        let tracer = PixelTracer::new(world, &view, &lamps, options);
+        let pixels: Vec<_> = rows
+            .flat_map(|y| columns.clone().map(move |x| [x, y]))
+            .map(|pixel| (pixel, tracer.trace(pixel)))
+            .collect();
+        // A panic while the lock is held would be passed on by rayon; the data stays usable.
+        let mut shared = shared.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        for ([x, y], values) in &pixels {
+            shared.film.set(y * width + x, values);
+        }
+        shared.progress.advance(tiles.count(), tracer.rays());
+        if progress(shared.progress).is_break() {
+            stopped.store(true, Ordering::Relaxed);
+        }
+    });
+    let shared = shared.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+    Ok(shared.film.develop(shared.progress.tiles_done == tiles.count()))
+}
+
+fn check(options: &RenderOptions) -> Result<(), RenderError> {
+    let in_range = |option, value: u32, range: Range<u32>, must| {
+        if range.contains(&value) { Ok(()) } else { Err(RenderError::Option { option, must }) }
+    };
+    in_range("samples", options.samples, 1..65_537, "from 1 to 65536")?;
+    in_range("max_bounces", options.max_bounces, 0..65, "at most 64")?;
+    in_range("ambient_rays", options.ambient_rays, 0..1025, "at most 1024")?;
+    in_range("light_samples", options.light_samples, 1..1025, "from 1 to 1024")?;
+    let positive = |option, value: f64| {
+        let must = "above zero and finite";
+        let good = value > 0.0 && value.is_finite();
+        if good { Ok(()) } else { Err(RenderError::Option { option, must }) }
+    };
+    positive("exposure", options.exposure.into())?;
+    options.occlusion_distance.map_or(Ok(()), |d| positive("occlusion_distance", d))?;
+    options.heat_max.map_or(Ok(()), |max| positive("heat_max", max.into()))
+}
+
+/// What threads share.
+struct Shared {
+    film: Film,
+    progress: RenderProgress,
+}
+
+impl RenderProgress {
+    fn advance(&mut self, tiles: usize, rays: u64) {
+        self.tiles_done += 1;
+        self.tiles = tiles;
+        self.fraction = self.tiles_done as f64 / tiles as f64;
+        self.rays += rays;
+    }
+}
+
+/// A picture cut into tiles, row by row.
+#[derive(Clone, Copy)]
+struct Tiles {
+    width: usize,
+    height: usize,
+}
+
+impl Tiles {
+    fn count(self) -> usize {
+        self.width.div_ceil(TILE) * self.height.div_ceil(TILE)
+    }
+
+    /// The columns and rows of a tile.
+    fn tile(self, index: usize) -> (Range<usize>, Range<usize>) {
+        let across = self.width.div_ceil(TILE);
+        let (x, y) = (index % across * TILE, index / across * TILE);
+        (x..(x + TILE).min(self.width), y..(y + TILE).min(self.height))
+    }
 }

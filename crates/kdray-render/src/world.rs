@@ -1,6 +1,6 @@
 //! A model that rays can be shot at.
 
-use kdray::{BuildError, BuildOptions, BuildProgress, MeshError, Scene, TriangleMesh};
+use kdray::{Aabb, BuildError, BuildOptions, BuildProgress, MeshError, Scene, TriangleMesh};
 use kdray_scene::{Material, Model, TextureRef};
 use std::ops::ControlFlow;
 use thiserror::Error;
@@ -95,6 +95,11 @@ impl World {
     /// [`scene().primitives()`](Scene::primitives).
     pub fn model(&self) -> &Model {
         &self.model
+    }
+
+    /// The box that holds all triangles; empty if there are none.
+    pub fn bounds(&self) -> &Aabb<3> {
+        self.scene.tree().bounds()
     }
 
     /// What a triangle looks like.

@@ -1,0 +1,43 @@
+//! OpenEXR: every layer as it was computed.
+
+use super::write::{WriteError, replace_file};
+use super::{Picture, Samples};
+use exr::prelude::{
+    AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, LayerAttributes, SmallVec,
+    WritableImage,
+};
+use std::path::Path;
+
+impl Picture {
+    /// Writes all layers as one OpenEXR picture, without loss. The colour's channels are `R`, `G`,
+    /// `B`, `A`; those of other layers are called `layer.channel`, such as `depth.Z`, which is how
+    /// OpenEXR names layers. The id is a whole number, all others are 32-bit floats.
+    ///
+    /// # Errors
+    /// See [`WriteError`].
+    pub fn write_exr(&self, path: impl AsRef<Path>) -> Result<(), WriteError> {
+        let mut channels = SmallVec::new();
+        for layer in &self.layers {
+            for channel in &layer.channels {
+                let name = match layer.name {
+                    "color" => channel.name.to_owned(),
+                    layer => format!("{layer}.{}", channel.name),
+                };
+                let samples = match &channel.samples {
+                    Samples::F32(samples) => FlatSamples::F32(samples.clone()),
+                    Samples::U32(samples) => FlatSamples::U32(samples.clone()),
+                };
+                channels.push(AnyChannel::new(name.as_str(), samples));
+            }
+        }
+        let image = Image::from_layer(Layer::new(
+            (self.width, self.height),
+            LayerAttributes::default(),
+            Encoding::SMALL_LOSSLESS,
+            AnyChannels::sort(channels),
+        ));
+        replace_file(path.as_ref(), |writer| {
+            image.write().to_buffered(writer).map_err(|error| error.to_string())
+        })
+    }
+}

@@ -1,0 +1,188 @@
+//! PNG: what a picture shows, to look at.
+
+use super::false_color::{self, HeatScale};
+use super::legend;
+use super::write::{WriteError, replace_file};
+use super::{Picture, Samples};
+use crate::options::PictureKind;
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+use image::{ExtendedColorType, ImageEncoder};
+use std::path::Path;
+
+/// How finely a PNG tells colours apart.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PngDepth {
+    /// 8 bits a channel.
+    #[default]
+    Eight,
+    /// 16 bits a channel.
+    Sixteen,
+}
+
+/// A picture of display values, RGBA from 0 to 65535.
+pub(crate) struct Canvas {
+    pub(crate) width: usize,
+    pub(crate) height: usize,
+    pub(crate) pixels: Vec<[u16; 4]>,
+}
+
+impl Picture {
+    /// Writes what [`kind`](Self::kind) names as a PNG with alpha, which is zero where nothing was
+    /// rendered.
+    ///
+    /// Light and ambient occlusion are encoded as sRGB, light after multiplication by
+    /// [`exposure`](Self::exposure). Depth goes from white for the nearest to dark for the farthest
+    /// surface, a normal's components from −1 to 1 become 0 to 255, ids get colours of their own,
+    /// and costs the colours of a heat scale that is drawn into the picture with its numbers.
+    ///
+    /// # Errors
+    /// See [`WriteError`].
+    pub fn write_png(&self, path: impl AsRef<Path>, depth: PngDepth) -> Result<(), WriteError> {
+        let canvas = self.canvas();
+        let (bytes, color): (Vec<u8>, _) = match depth {
+            PngDepth::Eight => (canvas.bytes(eight_bits), ExtendedColorType::Rgba8),
+            // The encoder takes native byte order.
+            PngDepth::Sixteen => (canvas.bytes(u16::to_ne_bytes), ExtendedColorType::Rgba16),
+        };
+        let size = |n: usize| u32::try_from(n).map_err(|_| "more pixels than PNG can hold".to_string());
+        replace_file(path.as_ref(), |writer| {
+            PngEncoder::new_with_quality(writer, CompressionType::Default, FilterType::Adaptive)
+                .write_image(&bytes, size(self.width)?, size(self.height)?, color)
+                .map_err(|error| error.to_string())
+        })
+    }
+
+    fn canvas(&self) -> Canvas {
+        let mut canvas = Canvas {
+            width: self.width,
+            height: self.height,
+            pixels: vec![[0; 4]; self.width * self.height],
+        };
+        match self.kind {
+            PictureKind::Shaded => self.draw_color(&mut canvas),
+            PictureKind::Depth => self.draw_depth(&mut canvas),
+            PictureKind::Normal => self.draw_normal(&mut canvas),
+            PictureKind::PrimitiveId => self.draw_ids(&mut canvas),
+            PictureKind::AmbientOcclusion => self.draw_occlusion(&mut canvas),
+            PictureKind::Cost => self.draw_cost(&mut canvas, "nodes + triangles", [1.0, 1.0]),
+            PictureKind::CostNodes => self.draw_cost(&mut canvas, "nodes visited", [1.0, 0.0]),
+            PictureKind::CostPrimitives => {
+                self.draw_cost(&mut canvas, "triangles tested", [0.0, 1.0]);
+            }
+        }
+        canvas
+    }
+
+    /// The channels of a layer, none if they are not there.
+    fn channels<const N: usize>(&self, layer: &str, names: [&str; N]) -> Option<[&[f32]; N]> {
+        let channels = names.map(|name| self.floats(layer, name));
+        channels.iter().all(Option::is_some).then(|| channels.map(Option::unwrap_or_default))
+    }
+
+    fn draw_color(&self, canvas: &mut Canvas) {
+        let Some([r, g, b, a]) = self.channels("color", ["R", "G", "B", "A"]) else { return };
+        canvas.fill(|i| {
+            let [r, g, b] = [r[i], g[i], b[i]].map(|x| srgb(x * self.exposure));
+            [r, g, b, a[i]]
+        });
+    }
+
+    fn draw_depth(&self, canvas: &mut Canvas) {
+        const FARTHEST: f32 = 0.1;
+        let Some([depth]) = self.channels("depth", ["Z"]) else { return };
+        // Zero stands for pixels that were not rendered.
+        let surfaces = depth.iter().filter(|z| z.is_finite() && **z > 0.0);
+        let (near, far) =
+            surfaces.fold((f32::INFINITY, 0.0_f32), |(near, far), &z| (near.min(z), far.max(z)));
+        canvas.fill(|i| {
+            let z = depth[i];
+            let share = if far > near { (z - near) / (far - near) } else { 0.0 };
+            let gray = if z.is_finite() { 1.0 - share * (1.0 - FARTHEST) } else { 0.0 };
+            if z > 0.0 { [gray, gray, gray, 1.0] } else { [0.0; 4] }
+        });
+    }
+
+    fn draw_normal(&self, canvas: &mut Canvas) {
+        let Some([x, y, z]) = self.channels("normal", ["X", "Y", "Z"]) else { return };
+        canvas.fill(|i| match [x[i], y[i], z[i]] {
+            [0.0, 0.0, 0.0] => [0.0, 0.0, 0.0, 1.0],
+            n => {
+                let [r, g, b] = n.map(|n| 0.5 + 0.5 * n);
+                [r, g, b, 1.0]
+            }
+        });
+    }
+
+    fn draw_ids(&self, canvas: &mut Canvas) {
+        let Some(ids) = self.ids("primitive", "id") else { return };
+        canvas.fill(|i| {
+            let [r, g, b] = false_color::of_id(ids[i]);
+            [r, g, b, 1.0]
+        });
+    }
+
+    fn draw_occlusion(&self, canvas: &mut Canvas) {
+        let Some([open]) = self.channels("occlusion", ["V"]) else { return };
+        canvas.fill(|i| {
+            let gray = srgb(open[i]);
+            [gray, gray, gray, 1.0]
+        });
+    }
+
+    fn draw_cost(&self, canvas: &mut Canvas, title: &str, weights: [f32; 2]) {
+        let Some([nodes, primitives]) = self.channels("cost", ["nodes", "primitives"]) else {
+            return;
+        };
+        let cost = |i: usize| weights[0] * nodes[i] + weights[1] * primitives[i];
+        let scale = HeatScale::new((0..canvas.pixels.len()).map(cost), self.heat_max);
+        canvas.fill(|i| {
+            let [r, g, b] = scale.color(cost(i));
+            [r, g, b, 1.0]
+        });
+        legend::draw(canvas, title, &scale);
+    }
+}
+
+impl Canvas {
+    /// Sets each pixel to `color` of its index, RGBA from 0 to 1.
+    fn fill(&mut self, color: impl Fn(usize) -> [f32; 4]) {
+        for (i, pixel) in self.pixels.iter_mut().enumerate() {
+            *pixel = color(i).map(|x| (x.clamp(0.0, 1.0) * 65535.0).round() as u16);
+        }
+    }
+
+    fn bytes<const N: usize>(&self, bytes: impl Fn(u16) -> [u8; N]) -> Vec<u8> {
+        self.pixels.iter().flatten().flat_map(|&value| bytes(value)).collect()
+    }
+}
+
+/// The nearest of 256 levels.
+fn eight_bits(value: u16) -> [u8; 1] {
+    [((u32::from(value) + 128) / 257) as u8]
+}
+
+/// The display value of linear light, from 0 to 1 (IEC 61966-2-1).
+fn srgb(linear: f32) -> f32 {
+    let linear = if linear.is_nan() { 0.0 } else { linear.clamp(0.0, 1.0) };
+    if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn display_values_follow_the_standard() {
+        assert_eq!((srgb(0.0), srgb(2.0), srgb(f32::NAN)), (0.0, 1.0, 0.0));
+        assert!((srgb(0.214_041) - 0.5).abs() < 1e-5);
+        assert!((srgb(0.002) - 0.02584).abs() < 1e-7);
+    }
+
+    #[test]
+    fn levels_round_to_the_nearest() {
+        assert_eq!([0, 128, 129, 65535].map(|v| eight_bits(v)[0]), [0, 0, 1, 255]);
+        for level in 0..=255_u16 {
+            assert_eq!(u16::from(eight_bits(level * 257)[0]), level);
+        }
+    }
+}
