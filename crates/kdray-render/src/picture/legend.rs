@@ -50,7 +50,11 @@ pub(crate) fn draw(canvas: &mut Canvas, title: &str, scale: &HeatScale) {
 }
 
 fn number(value: f32) -> String {
-    if value.fract() == 0.0 || value >= 100.0 { format!("{value:.0}") } else { format!("{value:.1}") }
+    if value.fract() == 0.0 || value >= 100.0 {
+        format!("{value:.0}")
+    } else {
+        format!("{value:.1}")
+    }
 }
 
 impl Pen<'_> {

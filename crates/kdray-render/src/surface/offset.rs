@@ -87,7 +87,7 @@ mod tests {
                     let Some(normal) = (b - a).cross(c - a).try_normalize() else { continue };
                     let u = next().abs();
                     let point = BoundedPoint::on_triangle([a, b, c], u, (1.0 - u) * next().abs());
-                    let corners = [a, b, c].map(DVec3::to_array);
+                    let corners = [a, b, c].map(|p| p.to_array());
                     for (direction, side) in
                         [(normal, Ordering::Greater), (-normal, Ordering::Less)]
                     {
