@@ -1,8 +1,13 @@
 //! Ctrl-C: ends the process at once, unless someone watches for it and ends in order.
 
 use std::{
+    fs,
     ops::ControlFlow,
-    sync::atomic::{AtomicBool, AtomicUsize, Ordering},
+    path::PathBuf,
+    sync::{
+        Mutex, PoisonError,
+        atomic::{AtomicBool, AtomicUsize, Ordering},
+    },
 };
 
 /// What the shell expects of a process that Ctrl-C ended: 128 + SIGINT.
@@ -10,17 +15,31 @@ pub(crate) const EXIT_CODE: u8 = 130;
 
 static REQUESTED: AtomicBool = AtomicBool::new(false);
 static WATCHERS: AtomicUsize = AtomicUsize::new(0);
+static TEMPORARY_FILES: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
 /// Begins to listen for Ctrl-C and termination requests.
 pub(crate) fn listen() {
     let stop = || {
         let again = REQUESTED.swap(true, Ordering::SeqCst);
         if again || WATCHERS.load(Ordering::SeqCst) == 0 {
+            remove_temporary_files();
             std::process::exit(EXIT_CODE.into());
         }
     };
     // Without a handler Ctrl-C ends the process, which is good enough.
     let _ = ctrlc::set_handler(stop);
+}
+
+/// Has this file removed if Ctrl-C ends the process at once, which runs no destructors.
+pub(crate) fn remove_at_exit(path: PathBuf) {
+    TEMPORARY_FILES.lock().unwrap_or_else(PoisonError::into_inner).push(path);
+}
+
+fn remove_temporary_files() {
+    for path in TEMPORARY_FILES.lock().unwrap_or_else(PoisonError::into_inner).drain(..) {
+        // Those that were completed have another name by now.
+        let _ = fs::remove_file(path);
+    }
 }
 
 /// While it lives, the first Ctrl-C only makes [`requested`] true; a second one ends the process.

@@ -9,6 +9,7 @@ mod interrupt;
 mod load;
 mod output;
 mod progress;
+mod query;
 mod table;
 
 use std::process::ExitCode;

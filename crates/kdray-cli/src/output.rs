@@ -1,6 +1,6 @@
 //! Output files, complete or not there at all; and standard output.
 
-use crate::error::CliError;
+use crate::{error::CliError, interrupt};
 use std::{
     fs::{self, File},
     io::{self, Write},
@@ -42,11 +42,24 @@ impl Output {
         output.commit()
     }
 
+    /// The path that the file will have.
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// Where to write.
     pub(crate) fn file(&mut self) -> &mut File {
         match &mut self.sink {
             Sink::Temporary(file) => file.as_file_mut(),
             Sink::Direct(file) => file,
+        }
+    }
+
+    /// An unnamed file in the same folder, for parts of the result; gone when closed.
+    pub(crate) fn scratch(&self) -> io::Result<File> {
+        match &self.sink {
+            Sink::Temporary(_) => tempfile::tempfile_in(folder_of(&self.path)),
+            Sink::Direct(_) => tempfile::tempfile(),
         }
     }
 
@@ -80,10 +93,15 @@ impl Sink {
             // As for any new file; the system's mask still applies.
             builder.permissions(fs::Permissions::from_mode(0o666));
         }
-        let folder = match path.parent() {
-            Some(folder) if !folder.as_os_str().is_empty() => folder,
-            _ => Path::new("."),
-        };
-        builder.tempfile_in(folder).map(Self::Temporary)
+        let file = builder.tempfile_in(folder_of(path))?;
+        interrupt::remove_at_exit(file.path().to_owned());
+        Ok(Self::Temporary(file))
+    }
+}
+
+fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
     }
 }

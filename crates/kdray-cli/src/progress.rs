@@ -45,6 +45,11 @@ impl Progress {
         self.bar.set_position(done);
     }
 
+    /// So much more is done; from any thread.
+    pub(crate) fn advance(&self, more: u64) {
+        self.bar.inc(more);
+    }
+
     /// This part of the total is done, from 0 to 1.
     pub(crate) fn set_fraction(&self, fraction: f64) {
         self.set((fraction * self.bar.length().unwrap_or(0) as f64) as u64);

@@ -1,0 +1,95 @@
+//! From a ray to what is asked of it.
+
+use clap::ValueEnum;
+use kdray::{Aabb, Hit, Ray, Scene, TriangleMesh, primitives::HitRule, traverse::Naive};
+
+/// What is asked of each ray.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Mode {
+    /// The first hit: t_hit, geometry_ids, primitive_ids, primitive_uvs, primitive_normals
+    Closest,
+    /// Whether there is a hit: occluded
+    Any,
+    /// Every crossing of a surface, by rising t: ray_splits, ray_ids and the arrays of closest
+    All,
+    /// How many surfaces are crossed: intersection_counts
+    Count,
+}
+
+/// The answer for one ray.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Answer {
+    /// The first hit, with the unit normal of the triangle.
+    Closest(Option<(Hit, [f64; 3])>),
+    /// Whether there is a hit.
+    Any(bool),
+    /// All hits by rising t.
+    All(Vec<Hit>),
+    /// How many hits there are.
+    Count(usize),
+}
+
+/// Who answers.
+pub(crate) enum Answerer {
+    /// The kd-tree.
+    Tree(Scene),
+    /// Every triangle is tested, after the box around all of them.
+    Naive(TriangleMesh, Aabb<3>),
+}
+
+impl Answerer {
+    /// Without a tree.
+    pub(crate) fn naive(mesh: TriangleMesh) -> Self {
+        let used = mesh.triangles().iter().flatten().map(|&id| mesh.vertices()[id as usize]);
+        let bounds = Aabb::of_points(used);
+        Self::Naive(mesh, bounds)
+    }
+
+    /// Answers one ray; one that cannot be traced hits nothing.
+    pub(crate) fn answer(&self, mode: Mode, ray: &Ray) -> Answer {
+        match mode {
+            Mode::Closest => Answer::Closest(self.closest_hit(ray).map(|hit| {
+                let normal = self.mesh().geometric_normal(hit.primitive_id);
+                (hit, glam::DVec3::from(normal).normalize_or_zero().into())
+            })),
+            Mode::Any => Answer::Any(self.any_hit(ray)),
+            Mode::All => Answer::All(self.all_hits(ray)),
+            Mode::Count => Answer::Count(self.count(ray)),
+        }
+    }
+
+    fn mesh(&self) -> &TriangleMesh {
+        match self {
+            Self::Tree(scene) => scene.primitives(),
+            Self::Naive(mesh, _) => mesh,
+        }
+    }
+
+    fn closest_hit(&self, ray: &Ray) -> Option<Hit> {
+        match self {
+            Self::Tree(scene) => scene.closest_hit(ray),
+            Self::Naive(mesh, bounds) => Naive::new(mesh, *bounds).closest_hit(ray),
+        }
+    }
+
+    fn any_hit(&self, ray: &Ray) -> bool {
+        match self {
+            Self::Tree(scene) => scene.any_hit(ray),
+            Self::Naive(mesh, bounds) => Naive::new(mesh, *bounds).any_hit(ray),
+        }
+    }
+
+    fn all_hits(&self, ray: &Ray) -> Vec<Hit> {
+        match self {
+            Self::Tree(scene) => scene.all_hits(ray).collect(),
+            Self::Naive(mesh, bounds) => Naive::new(mesh, *bounds).all_hits(ray, HitRule::Crossing),
+        }
+    }
+
+    fn count(&self, ray: &Ray) -> usize {
+        match self {
+            Self::Tree(scene) => scene.count(ray),
+            Self::Naive(..) => self.all_hits(ray).len(),
+        }
+    }
+}
