@@ -1,7 +1,10 @@
 //! Building a tree with progress and Ctrl-C.
 
 use crate::{args::BuildArgs, cli::Globals, error::CliError, interrupt, progress::Progress};
-use kdray::{Scene, TriangleMesh};
+use kdray::{BuildProgress, Scene, TriangleMesh};
+use kdray_render::World;
+use kdray_scene::Model;
+use std::ops::ControlFlow;
 
 /// Builds a tree over `mesh`, and says how long it took.
 pub(crate) fn scene(
@@ -9,15 +12,32 @@ pub(crate) fn scene(
     args: &BuildArgs,
     globals: &Globals,
 ) -> Result<Scene, CliError> {
-    let triangles = mesh.triangles().len();
-    let progress = Progress::start("building the tree", triangles as u64, "triangles", globals);
+    let progress = start(mesh.triangles().len(), globals);
     let _watch = interrupt::watch();
-    let scene = Scene::build_with_progress(mesh, &args.options(), &|done| {
-        progress.set_fraction(done.fraction);
-        interrupt::flow()
-    })?;
-    let (nodes, took) = (scene.tree().nodes().len(), progress.elapsed());
-    progress
-        .finish(&format!("built a tree of {nodes} nodes over {triangles} triangles in {took:.2?}"));
+    let scene = Scene::build_with_progress(mesh, &args.options(), &|done| step(&progress, done))?;
+    finish(progress, &scene);
     Ok(scene)
+}
+
+/// Builds a tree over the triangles of `model`, and says how long it took.
+pub(crate) fn world(model: Model, args: &BuildArgs, globals: &Globals) -> Result<World, CliError> {
+    let progress = start(model.triangles.len(), globals);
+    let _watch = interrupt::watch();
+    let world = World::new(model, &args.options(), &|done| step(&progress, done))?;
+    finish(progress, world.scene());
+    Ok(world)
+}
+
+fn start(triangles: usize, globals: &Globals) -> Progress {
+    Progress::start("building the tree", triangles as u64, "triangles", globals)
+}
+
+fn step(progress: &Progress, done: BuildProgress) -> ControlFlow<()> {
+    progress.set_fraction(done.fraction);
+    interrupt::flow()
+}
+
+fn finish(progress: Progress, scene: &Scene) {
+    let (nodes, took) = (scene.tree().nodes().len(), progress.elapsed());
+    progress.finish(&format!("built a tree of {nodes} nodes in {took:.2?}"));
 }

@@ -38,7 +38,7 @@ pub(crate) struct Globals {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    Render(commands::render::Args),
+    Render(Box<commands::render::Args>),
     Stats(commands::stats::Args),
     Validate(commands::validate::Args),
     Compare(commands::compare::Args),

@@ -2,6 +2,8 @@
 
 use crate::interrupt;
 use kdray::{BuildError, MeshError};
+use kdray_render::{RenderError, WorldError, WriteError};
+use kdray_scene::LoadError;
 use std::{
     io::{self, Write},
     path::{Path, PathBuf},
@@ -26,6 +28,18 @@ pub(crate) enum CliError {
         /// What is wrong with it, and where.
         reason: String,
     },
+    /// A scene that could not be read, or was refused.
+    #[error(transparent)]
+    Load(#[from] LoadError),
+    /// A scene that contradicts itself.
+    #[error(transparent)]
+    World(WorldError),
+    /// A camera, light or option that nothing can be rendered with.
+    #[error(transparent)]
+    Render(#[from] RenderError),
+    /// A picture that could not be written.
+    #[error(transparent)]
+    Picture(#[from] WriteError),
     /// Triangles that no tree can be built over.
     #[error(transparent)]
     Mesh(#[from] MeshError),
@@ -64,10 +78,11 @@ impl CliError {
         match self {
             Self::Stdout(error) if error.kind() == io::ErrorKind::BrokenPipe => 0,
             Self::Data(_) => 1,
-            Self::Usage(_) => 2,
+            Self::Usage(_) | Self::Render(_) => 2,
             Self::Interrupted | Self::Build(BuildError::Cancelled) => interrupt::EXIT_CODE,
-            Self::Input { .. } | Self::Mesh(_) | Self::Build(_) => 3,
-            Self::Output { .. } | Self::Stdout(_) => 4,
+            Self::Input { .. } | Self::Load(_) => 3,
+            Self::World(_) | Self::Mesh(_) | Self::Build(_) => 3,
+            Self::Output { .. } | Self::Stdout(_) | Self::Picture(_) => 4,
         }
     }
 
@@ -80,5 +95,15 @@ impl CliError {
             let _ = writeln!(io::stderr().lock(), "error: {self}");
         }
         ExitCode::from(code)
+    }
+}
+
+impl From<WorldError> for CliError {
+    fn from(error: WorldError) -> Self {
+        match error {
+            WorldError::Mesh(error) => Self::Mesh(error),
+            WorldError::Build(error) => Self::Build(error),
+            error => Self::World(error),
+        }
     }
 }

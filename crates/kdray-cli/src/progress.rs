@@ -1,8 +1,9 @@
 //! How far the work is, on standard error.
 
 use crate::cli::Globals;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{HumanCount, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use std::{
+    fmt,
     io::{self, IsTerminal, Write},
     time::{Duration, Instant},
 };
@@ -22,10 +23,14 @@ impl Progress {
         let target =
             if shown { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
         let bar = ProgressBar::with_draw_target(Some(total), target).with_message(what.to_owned());
-        let template =
-            format!("{{msg}} [{{bar:30}}] {{percent:>3}} %  {{per_sec}} {unit}, {{eta}} left");
-        if let Ok(style) = ProgressStyle::with_template(&template) {
-            bar.set_style(style.progress_chars("=> "));
+        let unit = unit.to_owned();
+        let rate = move |state: &ProgressState, text: &mut dyn fmt::Write| {
+            // Nothing can be done if a line on a terminal cannot be put together.
+            let _ = write!(text, "{} {unit}/s", HumanCount(state.per_sec() as u64));
+        };
+        let template = "{msg} [{bar:30}] {percent:>3} %  {rate}, {eta} left";
+        if let Ok(style) = ProgressStyle::with_template(template) {
+            bar.set_style(style.with_key("rate", rate).progress_chars("=> "));
         }
         Self { bar, quiet: globals.quiet, start: Instant::now() }
     }

@@ -6,8 +6,8 @@ mod values;
 mod view_args;
 
 pub(crate) use build_args::BuildArgs;
-pub(crate) use scene_args::SceneArgs;
-pub(crate) use values::{Size, numbers};
+pub(crate) use scene_args::{SceneArgs, SceneFormat};
+pub(crate) use values::{Size, color, numbers};
 pub(crate) use view_args::ViewArgs;
 
 /// How a table is printed.

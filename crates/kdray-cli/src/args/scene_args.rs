@@ -1,5 +1,7 @@
 //! Which scene.
 
+use clap::ValueEnum;
+use kdray_scene::Format;
 use std::path::PathBuf;
 
 /// Which scene to read, and how.
@@ -9,8 +11,45 @@ pub(crate) struct SceneArgs {
     /// standard input and needs --format. Without it, the built-in scene
     #[arg(value_name = "SCENE")]
     pub(crate) scene: Option<PathBuf>,
+    /// The format, where neither the file's name nor its content tells it
+    #[arg(long, value_name = "FORMAT")]
+    pub(crate) format: Option<SceneFormat>,
+    /// Refuse a file that is longer than this after decompression; without it 8 GiB, and 1 GiB
+    /// from standard input
+    #[arg(long, value_name = "BYTES")]
+    pub(crate) max_bytes: Option<u64>,
     /// Drop triangles with indices out of range or vertices that are not finite, and count them;
     /// without it they are an error
     #[arg(long)]
     pub(crate) drop_bad: bool,
+}
+
+/// The formats by their names on the command line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum SceneFormat {
+    /// Wavefront OBJ
+    Obj,
+    /// Stanford PLY
+    Ply,
+    /// Stereolithography
+    Stl,
+    /// Object file format
+    Off,
+    /// glTF 2.0, JSON or binary
+    Gltf,
+    /// The same as gltf
+    Glb,
+}
+
+impl SceneFormat {
+    /// The library's name for it.
+    pub(crate) fn format(self) -> Format {
+        match self {
+            Self::Obj => Format::Obj,
+            Self::Ply => Format::Ply,
+            Self::Stl => Format::Stl,
+            Self::Off => Format::Off,
+            Self::Gltf | Self::Glb => Format::Gltf,
+        }
+    }
 }

@@ -46,6 +46,15 @@ pub(crate) fn numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
     Ok(values)
 }
 
+/// Reads a colour, `r,g,b`: three numbers of which none is negative.
+pub(crate) fn color(text: &str) -> Result<[f32; 3], String> {
+    let values = numbers::<3>(text)?;
+    if values.iter().any(|&value| value < 0.0 || value > f32::MAX.into()) {
+        return Err("give three numbers from 0, such as 0.2,0.4,1".to_owned());
+    }
+    Ok(values.map(|value| value as f32))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,6 +1,10 @@
 //! From where the scene is seen, and how large the picture is.
 
 use super::{Size, numbers};
+use crate::error::CliError;
+use kdray::Aabb;
+use kdray_render::{default_lights, frame, point_light_for};
+use kdray_scene::{Camera, Light, Model, Projection};
 
 /// From where the scene is seen, and how large the picture is.
 #[derive(Clone, Debug, clap::Args)]
@@ -26,4 +30,53 @@ pub(crate) struct ViewArgs {
     /// Add a point light; may be given several times
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = numbers::<3>)]
     pub(crate) light: Vec<[f64; 3]>,
+}
+
+impl ViewArgs {
+    /// Width over height of the picture.
+    pub(crate) fn aspect(&self) -> f64 {
+        self.size.width as f64 / self.size.height as f64
+    }
+
+    /// The camera: the one that was named, or else the scene's first, or else one that frames the
+    /// scene in `bounds`; then changed as the arguments say.
+    pub(crate) fn camera(&self, model: &Model, bounds: &Aabb<3>) -> Result<Camera, CliError> {
+        let mut camera = match &self.camera {
+            Some(name) => named_camera(model, name)?.clone(),
+            None => match model.cameras.first() {
+                Some(camera) => camera.clone(),
+                None => frame(bounds, self.aspect()),
+            },
+        };
+        camera.eye = self.eye.unwrap_or(camera.eye);
+        camera.look_at = self.look_at.unwrap_or(camera.look_at);
+        camera.up = self.up.unwrap_or(camera.up);
+        if let Some(vfov_degrees) = self.fov {
+            camera.projection = Projection::Perspective { vfov_degrees };
+        }
+        Ok(camera)
+    }
+
+    /// The scene's lights and those of the arguments; if there are none, one over the camera's
+    /// shoulder.
+    pub(crate) fn lights(&self, model: &Model, bounds: &Aabb<3>, camera: &Camera) -> Vec<Light> {
+        let added = self.light.iter().map(|&position| point_light_for(bounds, position));
+        let lights: Vec<Light> = model.lights.iter().cloned().chain(added).collect();
+        if lights.is_empty() { default_lights(camera) } else { lights }
+    }
+}
+
+/// The camera of that name, or of that number.
+fn named_camera<'a>(model: &'a Model, name: &str) -> Result<&'a Camera, CliError> {
+    let by_name = model.cameras.iter().find(|camera| camera.name == name);
+    let by_number = || model.cameras.get(name.parse::<usize>().ok()?);
+    by_name.or_else(by_number).ok_or_else(|| {
+        let list: Vec<String> = model.cameras.iter().enumerate().map(describe).collect();
+        let list = if list.is_empty() { "none".to_owned() } else { list.join(", ") };
+        CliError::Usage(format!("--camera {name}: no such camera; the scene has {list}"))
+    })
+}
+
+fn describe((number, camera): (usize, &Camera)) -> String {
+    format!("{number} `{}`", camera.name)
 }

@@ -9,7 +9,7 @@ use crate::{
     progress::{self, Progress},
     query::{Answer, Answerer, HitWriter, HitsFormat, Mode, RayReader, Summary},
 };
-use kdray::{Ray, TriangleMesh};
+use kdray::Ray;
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 
@@ -89,8 +89,7 @@ pub(crate) fn run(args: &Args, globals: &Globals) -> Result<(), CliError> {
 }
 
 fn answerer(args: &Args, globals: &Globals) -> Result<Answerer, CliError> {
-    let model = load::model(&args.scene, globals)?;
-    let mesh = TriangleMesh::new(model.vertices, model.triangles)?;
+    let mesh = load::mesh(&args.scene, globals)?;
     if args.naive {
         return Ok(Answerer::naive(mesh));
     }

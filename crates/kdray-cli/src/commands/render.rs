@@ -1,16 +1,226 @@
-//! `kdray render`.
+//! `kdray render`: a picture by backward ray tracing.
 
-use crate::{args::SceneArgs, cli::Globals, error::CliError, load};
+use crate::{
+    args::{BuildArgs, SceneArgs, ViewArgs, color},
+    build,
+    cli::Globals,
+    error::CliError,
+    interrupt, load,
+    output::Output,
+    progress::{self, Progress},
+};
+use clap::ValueEnum;
+use kdray_render::{Background, Picture, PictureKind, PngDepth, RenderOptions, World};
+use std::{
+    path::{Path, PathBuf},
+    sync::atomic::{AtomicU64, Ordering},
+};
 
 /// Render a picture by backward ray tracing
+///
+/// Without a scene it renders the built-in one. Ctrl-C ends a render early: what is done is
+/// written, and the exit code is 130; a second Ctrl-C ends it without.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Example: the built-in scene to kdray.png
+  kdray render
+
+Example: a mesh seen from the left, lit from above
+  kdray render bunny.ply -o bunny.png --size 800x600 --eye=-1,0.1,0 --light 0,2,0
+
+Example: what the tree costs each pixel
+  kdray render bunny.ply -o cost.png --picture cost")]
 pub(crate) struct Args {
     #[command(flatten)]
     scene: SceneArgs,
+    /// The picture: a name that ends in .png or .exr
+    #[arg(long, short, value_name = "OUT.png|exr", default_value = "kdray.png")]
+    out: PathBuf,
+    #[command(flatten)]
+    view: ViewArgs,
+    #[command(flatten)]
+    quality: QualityArgs,
+    #[command(flatten)]
+    build: BuildArgs,
 }
 
-/// Loads the scene.
+/// What is computed, and how well. What is not given is the renderer's default.
+#[derive(Debug, clap::Args)]
+struct QualityArgs {
+    /// What the picture shows
+    #[arg(long, value_name = "WHAT", default_value = "shaded")]
+    picture: Shown,
+    /// Compute the layers of every picture; only for .exr
+    #[arg(long)]
+    layers: bool,
+    /// Bits a channel of a PNG
+    #[arg(long, value_name = "8|16", default_value = "8", value_parser = bits)]
+    bits: PngDepth,
+    /// Rays a pixel through the camera
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    samples: Option<u32>,
+    /// How many times a ray may be mirrored or refracted
+    #[arg(long, value_name = "N")]
+    bounces: Option<u32>,
+    /// Shadow rays per camera ray and rectangular light
+    #[arg(long, value_name = "N")]
+    light_samples: Option<u32>,
+    /// Chooses the random numbers: the same seed gives the same picture
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+    /// The colour behind everything, linear RGB; without it a sky
+    #[arg(long, value_name = "R,G,B", value_parser = color)]
+    background: Option<[f32; 3]>,
+    /// Light from all around, linear RGB
+    #[arg(long, value_name = "R,G,B", value_parser = color)]
+    ambient: Option<[f32; 3]>,
+    /// Rays per camera ray by which the surroundings block ambient light; 0 for none
+    #[arg(long, value_name = "N")]
+    ambient_rays: Option<u32>,
+    /// How far surfaces block ambient light, in units of the scene; without it a tenth of the
+    /// diagonal
+    #[arg(long, value_name = "LENGTH")]
+    occlusion_distance: Option<f64>,
+    /// What a PNG multiplies colours by
+    #[arg(long, value_name = "FACTOR")]
+    exposure: Option<f32>,
+}
+
+/// The pictures by their names on the command line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Shown {
+    /// Light: materials, lights, shadows, mirrors and glass
+    Shaded,
+    /// The distance to the hit
+    Depth,
+    /// The shading normal
+    Normal,
+    /// A colour for each triangle
+    PrimitiveId,
+    /// The share of the sky that a surface sees
+    AmbientOcclusion,
+    /// Nodes visited and triangles tested, with a legend
+    Cost,
+    /// Nodes visited
+    CostNodes,
+    /// Triangles tested
+    CostPrimitives,
+}
+
+/// The formats of pictures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Format {
+    Png,
+    Exr,
+}
+
+/// Reads, builds, renders and writes.
 pub(crate) fn run(args: &Args, globals: &Globals) -> Result<(), CliError> {
-    load::model(&args.scene, globals)?;
-    Ok(())
+    let format = Format::of(&args.out)?;
+    if args.quality.layers && format != Format::Exr {
+        let reason = "--layers needs an output that ends in .exr: a PNG holds one picture";
+        return Err(CliError::Usage(reason.to_owned()));
+    }
+    // Refused now, not after an hour of rendering.
+    drop(Output::create(&args.out)?);
+    let model = load::model(&args.scene, globals)?;
+    let world = build::world(model, &args.build, globals)?;
+    let (picture, report) = render(args, &world, globals)?;
+    match format {
+        Format::Png => picture.write_png(&args.out, args.quality.bits)?,
+        Format::Exr => picture.write_exr(&args.out)?,
+    }
+    progress::say(globals, &format!("{report}: {}", args.out.display()));
+    if picture.complete { Ok(()) } else { Err(CliError::Interrupted) }
+}
+
+/// The picture, whole or as far as Ctrl-C let it come, and a line on what was done.
+fn render(args: &Args, world: &World, globals: &Globals) -> Result<(Picture, String), CliError> {
+    let bounds = world.scene().tree().bounds();
+    let camera = args.view.camera(world.model(), bounds)?;
+    let lights = args.view.lights(world.model(), bounds, &camera);
+    let options = options(args);
+    let pixels = options.width * options.height;
+    let (rays, percent) = (AtomicU64::new(0), AtomicU64::new(0));
+
+    let progress = Progress::start("rendering", pixels as u64, "pixels", globals);
+    let _watch = interrupt::watch();
+    let picture = kdray_render::render(world, &camera, &lights, &options, &|done| {
+        rays.fetch_max(done.rays, Ordering::Relaxed);
+        percent.fetch_max((done.fraction * 100.0) as u64, Ordering::Relaxed);
+        progress.set_fraction(done.fraction);
+        interrupt::flow()
+    })?;
+
+    let took = progress.elapsed();
+    let megarays = rays.into_inner() as f64 / 1e6;
+    let rate = megarays / took.as_secs_f64().max(1e-9);
+    let (width, height) = (picture.width, picture.height);
+    let share = match picture.complete {
+        true => String::new(),
+        false => format!("{} % of ", percent.into_inner()),
+    };
+    let report = format!(
+        "rendered {share}{width} x {height} pixels with {megarays:.1} million rays in {took:.2?} \
+         ({rate:.2} Mrays/s)"
+    );
+    Ok((picture, report))
+}
+
+fn options(args: &Args) -> RenderOptions {
+    let (quality, default) = (&args.quality, RenderOptions::default());
+    RenderOptions {
+        width: args.view.size.width,
+        height: args.view.size.height,
+        samples: quality.samples.unwrap_or(default.samples),
+        max_bounces: quality.bounces.unwrap_or(default.max_bounces),
+        picture: quality.picture.kind(),
+        all_layers: quality.layers,
+        seed: quality.seed.unwrap_or(default.seed),
+        background: quality.background.map_or(default.background, Background::Color),
+        ambient: quality.ambient.unwrap_or(default.ambient),
+        ambient_rays: quality.ambient_rays.unwrap_or(default.ambient_rays),
+        occlusion_distance: quality.occlusion_distance.or(default.occlusion_distance),
+        light_samples: quality.light_samples.unwrap_or(default.light_samples),
+        exposure: quality.exposure.unwrap_or(default.exposure),
+    }
+}
+
+impl Format {
+    /// The format that a path's ending names.
+    fn of(path: &Path) -> Result<Self, CliError> {
+        let ending = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+        match ending.as_str() {
+            "png" => Ok(Self::Png),
+            "exr" => Ok(Self::Exr),
+            _ => Err(CliError::Usage(format!(
+                "--out {}: give a name that ends in .png or .exr",
+                path.display()
+            ))),
+        }
+    }
+}
+
+impl Shown {
+    /// The library's name for it.
+    fn kind(self) -> PictureKind {
+        match self {
+            Self::Shaded => PictureKind::Shaded,
+            Self::Depth => PictureKind::Depth,
+            Self::Normal => PictureKind::Normal,
+            Self::PrimitiveId => PictureKind::PrimitiveId,
+            Self::AmbientOcclusion => PictureKind::AmbientOcclusion,
+            Self::Cost => PictureKind::Cost,
+            Self::CostNodes => PictureKind::CostNodes,
+            Self::CostPrimitives => PictureKind::CostPrimitives,
+        }
+    }
+}
+
+fn bits(text: &str) -> Result<PngDepth, String> {
+    match text {
+        "8" => Ok(PngDepth::Eight),
+        "16" => Ok(PngDepth::Sixteen),
+        _ => Err("give 8 or 16".to_owned()),
+    }
 }

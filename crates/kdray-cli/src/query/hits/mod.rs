@@ -4,12 +4,10 @@ mod array;
 mod csv;
 mod npz;
 
+use self::{csv::CsvHits, npz::NpzHits};
 use super::{Answer, Mode, Precision};
 use crate::{error::CliError, output::Output};
-use std::{
-    io,
-    path::Path,
-};
+use std::{io, path::Path};
 
 /// What a miss has for ids.
 const MISS_ID: u32 = u32::MAX;
@@ -24,15 +22,10 @@ pub(crate) enum HitsFormat {
 }
 
 /// Writes answers as they come. Nothing is at the path before [`finish`](Self::finish).
-pub(crate) struct HitWriter {
-    encoder: Encoder,
-    /// None for standard output.
-    output: Option<Output>,
-}
-
-enum Encoder {
-    Npz(npz::NpzHits),
-    Csv(csv::CsvHits),
+pub(crate) enum HitWriter {
+    Npz(Box<NpzHits>, Output),
+    Csv(CsvHits, Output),
+    Stdout(CsvHits),
 }
 
 impl HitsFormat {
@@ -56,52 +49,44 @@ impl HitWriter {
     pub(crate) fn create(path: &Path, mode: Mode, precision: Precision) -> Result<Self, CliError> {
         let format = HitsFormat::of(path)?;
         if path == Path::new("-") {
-            let csv = csv::CsvHits::new(io::stdout(), mode, precision).map_err(CliError::Stdout)?;
-            return Ok(Self { encoder: Encoder::Csv(csv), output: None });
+            let csv = CsvHits::new(io::stdout(), mode, precision).map_err(CliError::Stdout)?;
+            return Ok(Self::Stdout(csv));
         }
         let mut output = Output::create(path)?;
-        let encoder = match format {
-            HitsFormat::Npz => npz::NpzHits::new(&output, mode, precision).map(Encoder::Npz),
-            HitsFormat::Csv => output
-                .file()
-                .try_clone()
-                .and_then(|file| csv::CsvHits::new(file, mode, precision))
-                .map(Encoder::Csv),
+        let begun = match format {
+            HitsFormat::Npz => {
+                NpzHits::new(&output, mode, precision).map(|npz| Self::Npz(Box::new(npz), output))
+            }
+            HitsFormat::Csv => {
+                let file = output.file().try_clone();
+                let csv = file.and_then(|file| CsvHits::new(file, mode, precision));
+                csv.map(|csv| Self::Csv(csv, output))
+            }
         };
-        let encoder = encoder.map_err(|error| CliError::output(path, error))?;
-        Ok(Self { encoder, output: Some(output) })
+        begun.map_err(|error| CliError::output(path, error))
     }
 
     /// Appends the answer of the ray with this number.
     pub(crate) fn write(&mut self, ray: u64, answer: &Answer) -> Result<(), CliError> {
-        let written = match &mut self.encoder {
-            Encoder::Npz(npz) => npz.write(ray, answer),
-            Encoder::Csv(csv) => csv.write(ray, answer),
-        };
-        written.map_err(|error| self.error(error))
+        match self {
+            Self::Npz(npz, output) => {
+                npz.write(ray, answer).map_err(|error| CliError::output(output.path(), error))
+            }
+            Self::Csv(csv, output) => {
+                csv.write(ray, answer).map_err(|error| CliError::output(output.path(), error))
+            }
+            Self::Stdout(csv) => csv.write(ray, answer).map_err(CliError::Stdout),
+        }
     }
 
     /// Completes the output.
     pub(crate) fn finish(self) -> Result<(), CliError> {
-        match (self.encoder, self.output) {
-            (Encoder::Npz(npz), Some(mut output)) => {
-                let gathered = npz.finish(output.file());
-                gathered.map_err(|error| CliError::output(output.path(), error))?;
-                output.commit()
-            }
-            (Encoder::Csv(mut csv), Some(output)) => {
-                csv.flush().map_err(|error| CliError::output(output.path(), error))?;
-                output.commit()
-            }
-            (Encoder::Csv(mut csv), None) => csv.flush().map_err(CliError::Stdout),
-            (Encoder::Npz(_), None) => Ok(()),
-        }
-    }
-
-    fn error(&self, error: io::Error) -> CliError {
-        match &self.output {
-            Some(output) => CliError::output(output.path(), error),
-            None => CliError::Stdout(error),
-        }
+        let (written, output) = match self {
+            Self::Npz(npz, mut output) => (npz.finish(output.file()), output),
+            Self::Csv(mut csv, output) => (csv.flush(), output),
+            Self::Stdout(mut csv) => return csv.flush().map_err(CliError::Stdout),
+        };
+        written.map_err(|error| CliError::output(output.path(), error))?;
+        output.commit()
     }
 }
