@@ -1,7 +1,7 @@
 //! What can go wrong, and the exit code that says so.
 
 use crate::interrupt;
-use kdray::{BuildError, MeshError};
+use kdray::{BuildError, MeshError, tree::TreeError};
 use kdray_render::{RenderError, WorldError, WriteError};
 use kdray_scene::LoadError;
 use std::{
@@ -14,9 +14,9 @@ use thiserror::Error;
 /// Why a command failed.
 #[derive(Debug, Error)]
 pub(crate) enum CliError {
-    /// The data is well formed, but not what it must be.
-    #[error("{0}")]
-    Data(String),
+    /// A tree that is not what it must be.
+    #[error("the tree is broken: {0}")]
+    Tree(#[from] TreeError),
     /// Arguments that do not go together, or name what is not there.
     #[error("{0}")]
     Usage(String),
@@ -77,7 +77,7 @@ impl CliError {
     fn exit_code(&self) -> u8 {
         match self {
             Self::Stdout(error) if error.kind() == io::ErrorKind::BrokenPipe => 0,
-            Self::Data(_) => 1,
+            Self::Tree(_) => 1,
             Self::Usage(_) | Self::Render(_) => 2,
             Self::Interrupted | Self::Build(BuildError::Cancelled) => interrupt::EXIT_CODE,
             Self::Input { .. } | Self::Load(_) => 3,
@@ -105,5 +105,22 @@ impl From<WorldError> for CliError {
             WorldError::Build(error) => Self::Build(error),
             error => Self::World(error),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exit_codes_are_those_of_the_help() {
+        let code = |error: CliError| error.exit_code();
+        let system = |kind: io::ErrorKind| io::Error::from(kind);
+        assert_eq!(code(TreeError::NoRoot.into()), 1);
+        assert_eq!(code(CliError::Usage(String::new())), 2);
+        assert_eq!(code(MeshError::TooManyTriangles(0).into()), 3);
+        assert_eq!(code(CliError::Stdout(system(io::ErrorKind::StorageFull))), 4);
+        assert_eq!(code(CliError::Stdout(system(io::ErrorKind::BrokenPipe))), 0);
+        assert_eq!(code(WorldError::Build(BuildError::Cancelled).into()), 130);
     }
 }

@@ -47,6 +47,16 @@ impl Split {
             Self::RoundRobin => Strategy::RoundRobin,
         }
     }
+
+    /// Its name on the command line.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Sah => "sah",
+            Self::Middle => "middle",
+            Self::Median => "median",
+            Self::RoundRobin => "round-robin",
+        }
+    }
 }
 
 impl BuildArgs {

@@ -18,7 +18,7 @@ pub(super) enum Number {
 }
 
 /// An array whose numbers are kept in a file without a name till their count is known.
-pub(super) struct Array {
+pub(crate) struct Array {
     name: &'static str,
     number: Number,
     precision: Precision,

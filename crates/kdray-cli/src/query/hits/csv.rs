@@ -14,7 +14,7 @@ const HIT: &str = "t_hit,geometry_ids,primitive_ids,primitive_uvs_u,primitive_uv
 const NORMAL: &str = "primitive_normals_x,primitive_normals_y,primitive_normals_z";
 
 /// A line of names, then a line for each ray, or for mode `all` each hit.
-pub(super) struct CsvHits {
+pub(crate) struct CsvHits {
     target: Box<dyn Write>,
     precision: Precision,
 }

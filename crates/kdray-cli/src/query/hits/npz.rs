@@ -14,7 +14,7 @@ use std::{
 use zip::{CompressionMethod, ZipWriter, write::SimpleFileOptions};
 
 /// The arrays of a mode, growing.
-pub(super) enum NpzHits {
+pub(crate) enum NpzHits {
     Closest { hits: HitArrays, primitive_normals: Array },
     Any { occluded: Array },
     All { hits: HitArrays, ray_ids: Array, ray_splits: Array, count: i64 },
@@ -22,7 +22,7 @@ pub(super) enum NpzHits {
 }
 
 /// What is said of a hit.
-pub(super) struct HitArrays {
+pub(crate) struct HitArrays {
     t_hit: Array,
     geometry_ids: Array,
     primitive_ids: Array,
