@@ -3,7 +3,7 @@
 use super::{Size, numbers};
 use crate::error::CliError;
 use kdray::Aabb;
-use kdray_render::{default_lights, frame, point_light_for};
+use kdray_render::{frame, point_light_for};
 use kdray_scene::{Camera, Light, Model, Projection};
 
 /// From where the scene is seen, and how large the picture is.
@@ -57,12 +57,10 @@ impl ViewArgs {
         Ok(camera)
     }
 
-    /// The scene's lights and those of the arguments; if there are none, one over the camera's
-    /// shoulder.
-    pub(crate) fn lights(&self, model: &Model, bounds: &Aabb<3>, camera: &Camera) -> Vec<Light> {
+    /// The scene's lights and those of the arguments.
+    pub(crate) fn lights(&self, model: &Model, bounds: &Aabb<3>) -> Vec<Light> {
         let added = self.light.iter().map(|&position| point_light_for(bounds, position));
-        let lights: Vec<Light> = model.lights.iter().cloned().chain(added).collect();
-        if lights.is_empty() { default_lights(camera) } else { lights }
+        model.lights.iter().cloned().chain(added).collect()
     }
 }
 

@@ -10,10 +10,12 @@ use crate::{
     progress::{self, Progress},
 };
 use clap::ValueEnum;
-use kdray_render::{Background, Picture, PictureKind, PngDepth, RenderOptions, World};
+use kdray_render::{
+    Background, Picture, PictureKind, PngDepth, RenderOptions, RenderProgress, World,
+};
 use std::{
     path::{Path, PathBuf},
-    sync::atomic::{AtomicU64, Ordering},
+    sync::{Mutex, PoisonError},
 };
 
 /// Render a picture by backward ray tracing
@@ -84,6 +86,9 @@ struct QualityArgs {
     /// What a PNG multiplies colours by
     #[arg(long, value_name = "FACTOR")]
     exposure: Option<f32>,
+    /// The cost with the last colour of a cost picture; without it the 99.5th percentile
+    #[arg(long, value_name = "COST")]
+    heat_max: Option<f32>,
 }
 
 /// The pictures by their names on the command line.
@@ -138,27 +143,27 @@ pub(crate) fn run(args: &Args, globals: &Globals) -> Result<(), CliError> {
 fn render(args: &Args, world: &World, globals: &Globals) -> Result<(Picture, String), CliError> {
     let bounds = world.scene().tree().bounds();
     let camera = args.view.camera(world.model(), bounds)?;
-    let lights = args.view.lights(world.model(), bounds, &camera);
+    let lights = args.view.lights(world.model(), bounds);
     let options = options(args);
     let pixels = options.width * options.height;
-    let (rays, percent) = (AtomicU64::new(0), AtomicU64::new(0));
+    let last = Mutex::new(RenderProgress::default());
 
     let progress = Progress::start("rendering", pixels as u64, "pixels", globals);
     let _watch = interrupt::watch();
     let picture = kdray_render::render(world, &camera, &lights, &options, &|done| {
-        rays.fetch_max(done.rays, Ordering::Relaxed);
-        percent.fetch_max((done.fraction * 100.0) as u64, Ordering::Relaxed);
+        *last.lock().unwrap_or_else(PoisonError::into_inner) = done;
         progress.set_fraction(done.fraction);
         interrupt::flow()
     })?;
 
     let took = progress.elapsed();
-    let megarays = rays.into_inner() as f64 / 1e6;
+    let last = last.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let megarays = last.rays as f64 / 1e6;
     let rate = megarays / took.as_secs_f64().max(1e-9);
     let (width, height) = (picture.width, picture.height);
     let share = match picture.complete {
         true => String::new(),
-        false => format!("{} % of ", percent.into_inner()),
+        false => format!("{:.0} % of ", last.fraction * 100.0),
     };
     let report = format!(
         "rendered {share}{width} x {height} pixels with {megarays:.1} million rays in {took:.2?} \
@@ -183,6 +188,7 @@ fn options(args: &Args) -> RenderOptions {
         occlusion_distance: quality.occlusion_distance.or(default.occlusion_distance),
         light_samples: quality.light_samples.unwrap_or(default.light_samples),
         exposure: quality.exposure.unwrap_or(default.exposure),
+        heat_max: quality.heat_max.or(default.heat_max),
     }
 }
 
