@@ -19,7 +19,7 @@ pub struct Accumulator {
 /// A number `mantissa · 2^exponent` whose exponent may be beyond that of an f64.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scaled {
-    /// Zero, or of absolute value from 2^127 up to 2^128.
+    /// The digits; those of an accumulator's value are zero, or from 2^127 to 2^128 in size.
     pub mantissa: f64,
     /// The power of two.
     pub exponent: i32,
@@ -132,6 +132,12 @@ impl Accumulator {
             }
         }
         Self { limbs }
+    }
+}
+
+impl From<f64> for Scaled {
+    fn from(mantissa: f64) -> Self {
+        Self { mantissa, exponent: 0 }
     }
 }
 

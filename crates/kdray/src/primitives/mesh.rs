@@ -99,7 +99,8 @@ impl TriangleMesh {
 
     /// The corners a, b, c of a triangle.
     pub fn corners(&self, id: u32) -> [[f32; 3]; 3] {
-        self.triangles[id as usize].map(|vertex| self.vertices[vertex as usize])
+        let [a, b, c] = self.triangles[id as usize];
+        [self.vertices[a as usize], self.vertices[b as usize], self.vertices[c as usize]]
     }
 
     /// (b−a) x (c−a) of a triangle: its normal, of twice its area in length.

@@ -1,8 +1,8 @@
 //! The ray–triangle test: a filter in f64, and exact arithmetic where the filter cannot tell.
 
 use super::{Hit, HitRule, Side};
-use crate::exact::{edge_function, turned_edge_sign, volume};
-use crate::geometry::Ray;
+use crate::exact::{Scaled, edge_function, turned_edge_sign, volume};
+use crate::geometry::{Ray, t_above, t_below};
 use glam::{DVec3, Vec3Swizzles};
 use std::cmp::Ordering;
 
@@ -18,9 +18,12 @@ const ROUNDING: f64 = f64::EPSILON / 2.0;
 /// three of these and two more roundings on each: at most 3·18 = 54.
 const EDGE_ERROR: f64 = 64.0 * ROUNDING;
 
-/// The largest ratio of the sum of absolute terms to |den| or |T| at which the f64 value is good:
-/// 8 roundings leave a relative error below 2^-50 · 512 = 2^-41, and t one below 2^-39.
-const GOOD: f64 = 512.0;
+/// A bound for the error of den and T, in units of the sum of the absolute values of their terms:
+/// 8 roundings.
+const TERM_ERROR: f64 = 8.0 * ROUNDING;
+
+/// The largest relative error at which den and T are good; that of t is below 2^-39 then.
+const RELATIVE_ERROR: f64 = 1.0 / (1u64 << 41) as f64;
 
 /// The largest error of an edge function, relative to den, at which u and v are good.
 const BARYCENTRIC_ERROR: f64 = 1.0 / (1u64 << 36) as f64;
@@ -63,13 +66,21 @@ pub fn intersect_triangle(
     }
 
     let t_den = q.dot(e2);
-    let good = |value: f64, terms: f64| terms <= GOOD * value.abs() && terms > 1e-280;
-    let good = bound_holds
+    let (den_terms, t_terms) = (terms(d, e2, e1), terms(s, e1, e2));
+    let trusted = bound_holds
         && error <= BARYCENTRIC_ERROR * den.abs()
-        && good(den, terms(d, e2, e1))
-        && good(t_den, terms(s, e1, e2));
-    let (t, u, v, front) = if good {
-        (t_den / den, (u / den).clamp(0.0, 1.0), (v / den).clamp(0.0, 1.0), den > 0.0)
+        && (TERM_ERROR / RELATIVE_ERROR) * den_terms <= den.abs();
+    let (t, u, v, front) = if trusted {
+        let t_error = TERM_ERROR * t_terms + 1e-290;
+        let ends = ((t_den - t_error) / den, (t_den + t_error) / den);
+        if t_above(ends.0.max(ends.1)) < ray.interval.t_min
+            || t_below(ends.0.min(ends.1)) > ray.interval.t_max
+        {
+            return None;
+        }
+        let good = t_error <= RELATIVE_ERROR * t_den.abs() && t_terms < 1e300;
+        let t = if good { t_den / den } else { t_exactly(corners, ray, den) };
+        (t, (u / den).clamp(0.0, 1.0), (v / den).clamp(0.0, 1.0), den > 0.0)
     } else {
         values_exactly(corners, ray)
     };
@@ -114,6 +125,13 @@ fn is_hit_exactly(
     }
     let turned = [0, 1, 2].map(|i| turned_edge_sign(ray, edges[i].0, edges[i].1, signs[i]));
     turned[0] != Ordering::Equal && turned == [turned[0]; 3]
+}
+
+/// t from a den that is good, where T has lost too many digits: near the origin of the ray.
+#[cold]
+#[inline(never)]
+fn t_exactly(corners: &[[f32; 3]; 3], ray: &Ray<3>, den: f64) -> f64 {
+    volume(ray.origin, corners.map(|p| p.map(f64::from))).value().divided_by(Scaled::from(den))
 }
 
 /// t, u, v and whether the front is hit, without rounding before the final quotients.
