@@ -1,6 +1,6 @@
 //! Collects vertices and polygons into a model.
 
-use super::triangulate::{MAX_CONCAVE_CORNERS, Triangulator};
+use super::triangulate::{MAX_CONCAVE_CORNERS, triangulate};
 use crate::formats::Request;
 use crate::{LoadError, Model, Place};
 use glam::Vec3;
@@ -25,7 +25,6 @@ pub(crate) struct MeshBuilder<'a> {
     /// How the file numbers its first vertex, for messages.
     pub(crate) first_index: i64,
     request: &'a Request<'a>,
-    triangulator: Triangulator,
     points: Vec<[f32; 3]>,
     split: Vec<[u32; 3]>,
     dropped: u64,
@@ -43,7 +42,6 @@ impl<'a> MeshBuilder<'a> {
             material: None,
             first_index: 0,
             request,
-            triangulator: Triangulator::new(),
             points: Vec::new(),
             split: Vec::new(),
             dropped: 0,
@@ -72,7 +70,7 @@ impl<'a> MeshBuilder<'a> {
             return Ok(());
         }
         let mut split = std::mem::take(&mut self.split);
-        if self.triangulator.split(&self.points, &mut split).is_err() {
+        if triangulate(&self.points, &mut split).is_err() {
             let reason = format!("a concave polygon of more than {MAX_CONCAVE_CORNERS} corners");
             return Err(self.request.invalid(place(), reason));
         }
@@ -103,7 +101,13 @@ impl<'a> MeshBuilder<'a> {
         None
     }
 
-    fn refuse_or_drop(&mut self, place: Place, reason: String) -> Result<(), LoadError> {
+    /// Refuses a polygon, or drops and counts it if the caller of the library asked for that.
+    pub(crate) fn refuse_or_drop(
+        &mut self,
+        place: Place,
+        reason: impl Into<String>,
+    ) -> Result<(), LoadError> {
+        let reason = reason.into();
         if !self.request.options.drop_bad {
             return Err(self.request.invalid(place, reason));
         }
@@ -142,11 +146,11 @@ impl<'a> MeshBuilder<'a> {
         self.fill_lists();
         if self.dropped > 0 {
             let (count, first) = (self.dropped, std::mem::take(&mut self.first_dropped));
-            self.warn(format!("{count} bad polygons dropped, the first at {first}"));
+            self.warn(format!("bad polygons dropped: {count}, the first at {first}"));
         }
         if self.without_area > 0 {
             let count = self.without_area;
-            self.warn(format!("{count} polygons of fewer than three corners passed over"));
+            self.warn(format!("polygons of fewer than three corners passed over: {count}"));
         }
         if self.model.triangles.is_empty() {
             let count = self.model.vertices.len();

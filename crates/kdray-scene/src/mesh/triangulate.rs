@@ -1,71 +1,42 @@
 //! Polygons into triangles that keep the polygon's outline exactly.
+//!
+//! Ears are cut by hand: the `earcut` crate drops corners on straight edges, which opens closed
+//! meshes, and takes cubic time for outlines that overlap themselves.
 
-use earcut::Earcut;
 use glam::{DVec2, DVec3};
 
-/// Above this many corners a concave polygon is refused: ear cutting can take quadratic time.
+/// Above this many corners a concave polygon is refused, for ear cutting takes quadratic time.
 pub(crate) const MAX_CONCAVE_CORNERS: usize = 1 << 14;
 
 /// A concave polygon has more than [`MAX_CONCAVE_CORNERS`] corners.
 #[derive(Debug, PartialEq)]
 pub(crate) struct TooManyCorners;
 
-/// Splits polygons. Keeps its memory from one to the next.
-pub(crate) struct Triangulator {
-    earcut: Earcut<f64>,
-    flat: Vec<[f64; 2]>,
-}
-
-impl Triangulator {
-    pub(crate) fn new() -> Self {
-        Self { earcut: Earcut::new(), flat: Vec::new() }
+/// Puts triangles of corner numbers into `out`, wound as the polygon is.
+///
+/// The polygon is seen along the largest axis of its Newell normal, which changes no coordinate.
+/// Convex ones become a fan, concave ones are cut by ears (Meisters 1975). In every case, also for
+/// outlines that cross themselves, the directed edges of the triangles, less those met in both
+/// directions, are the polygon's own: no corner is lost, so that closed meshes stay closed.
+pub(crate) fn triangulate(
+    points: &[[f32; 3]],
+    out: &mut Vec<[u32; 3]>,
+) -> Result<(), TooManyCorners> {
+    out.clear();
+    if points.len() <= 3 {
+        fan(points.len(), out);
+        return Ok(());
     }
-
-    /// Puts triangles of corner numbers into `out`, wound as the polygon is.
-    ///
-    /// The polygon is seen along the largest axis of its Newell normal, which changes no
-    /// coordinate. Convex ones become a fan, concave ones are cut by ears (the `earcut` crate).
-    /// In every case the directed edges of the triangles, less those met in both directions, are
-    /// the polygon's own: no corner is lost, so that closed meshes stay closed.
-    pub(crate) fn split(
-        &mut self,
-        points: &[[f32; 3]],
-        out: &mut Vec<[u32; 3]>,
-    ) -> Result<(), TooManyCorners> {
-        out.clear();
-        if points.len() <= 3 {
-            fan(points.len(), out);
-            return Ok(());
-        }
-        self.flat.clear();
-        let [i, j] = axes_across(newell_normal(points));
-        self.flat.extend(points.iter().map(|p| [f64::from(p[i]), f64::from(p[j])]));
-        if is_convex(&self.flat) {
-            fan(points.len(), out);
-        } else if points.len() > MAX_CONCAVE_CORNERS {
-            return Err(TooManyCorners);
-        } else {
-            self.cut_ears(out);
-        }
-        Ok(())
+    let [i, j] = axes_across(newell_normal(points));
+    let flat: Vec<[f64; 2]> = points.iter().map(|p| [f64::from(p[i]), f64::from(p[j])]).collect();
+    if is_convex(&flat) {
+        fan(points.len(), out);
+    } else if points.len() > MAX_CONCAVE_CORNERS {
+        return Err(TooManyCorners);
+    } else {
+        Outline::new(&flat).cut_ears(out);
     }
-
-    fn cut_ears(&mut self, out: &mut Vec<[u32; 3]>) {
-        let mut indices: Vec<u32> = Vec::new();
-        self.earcut.earcut_slice(&self.flat, &[], &mut indices);
-        out.extend(indices.chunks_exact(3).map(|t| [t[0], t[1], t[2]]));
-        let counter_clockwise = |t: &[u32; 3]| turn(&self.flat, t.map(|i| i as usize)) >= 0.0;
-        for triangle in out.iter_mut() {
-            if !counter_clockwise(triangle) {
-                triangle.swap(1, 2);
-            }
-        }
-        add_lost_corners(self.flat.len(), out);
-        if !outline_is_kept(self.flat.len(), out) {
-            out.clear();
-            fan(self.flat.len(), out);
-        }
-    }
+    Ok(())
 }
 
 fn fan(corners: usize, out: &mut Vec<[u32; 3]>) {
@@ -114,31 +85,130 @@ fn is_convex(flat: &[[f64; 2]]) -> bool {
     })
 }
 
-/// Ear cutting passes over corners on straight lines; gives each run of them a fan of (nearly) flat
-/// triangles, which join the outline to the edge that replaced it.
-fn add_lost_corners(corners: usize, out: &mut Vec<[u32; 3]>) {
-    let mut used = vec![false; corners];
-    out.iter().flatten().for_each(|&corner| used[corner as usize] = true);
-    let kept: Vec<usize> = (0..corners).filter(|&i| used[i]).collect();
-    for (position, &first) in kept.iter().enumerate() {
-        let next = kept.get(position + 1).copied().unwrap_or(kept[0] + corners);
-        for corner in first + 1..next {
-            let [a, b, c] = [first, corner, corner + 1].map(|i| (i % corners) as u32);
-            out.push([a, b, c]);
+/// What is left of a polygon while ears are cut off.
+struct Outline<'a> {
+    flat: &'a [[f64; 2]],
+    previous: Vec<usize>,
+    next: Vec<usize>,
+    /// Corners that do not turn left: only they can lie in the way of an ear.
+    blockers: Vec<usize>,
+    /// Whether a corner is an ear, as far as known. It changes only with its neighbours.
+    ear: Vec<Option<bool>>,
+    left: usize,
+}
+
+/// How often all corners are looked at anew when none seems to be an ear; needed where outlines
+/// touch themselves.
+const MAX_RETRIES: usize = 8;
+
+impl<'a> Outline<'a> {
+    fn new(flat: &'a [[f64; 2]]) -> Self {
+        let n = flat.len();
+        let previous: Vec<usize> = (0..n).map(|i| (i + n - 1) % n).collect();
+        let next: Vec<usize> = (0..n).map(|i| (i + 1) % n).collect();
+        let mut outline =
+            Self { flat, previous, next, blockers: Vec::new(), ear: vec![None; n], left: n };
+        outline.blockers = (0..n).filter(|&i| outline.turn_at(i) <= 0.0).collect();
+        outline
+    }
+
+    fn triangle_at(&self, corner: usize) -> [usize; 3] {
+        [self.previous[corner], corner, self.next[corner]]
+    }
+
+    fn turn_at(&self, corner: usize) -> f64 {
+        turn(self.flat, self.triangle_at(corner))
+    }
+
+    fn cut_ears(&mut self, out: &mut Vec<[u32; 3]>) {
+        let (mut corner, mut missed, mut retries) = (0, 0, 0);
+        while self.left > 3 {
+            let is_ear = match self.ear[corner] {
+                Some(known) => known,
+                None => self.is_ear(corner),
+            };
+            self.ear[corner] = Some(is_ear);
+            if is_ear {
+                // Going on behind the neighbour avoids fans of needles.
+                let after = self.next[self.next[corner]];
+                self.cut(corner, out);
+                (corner, missed) = (after, 0);
+                continue;
+            }
+            corner = self.next[corner];
+            missed += 1;
+            if missed < self.left {
+                continue;
+            }
+            missed = 0;
+            if retries < MAX_RETRIES {
+                retries += 1;
+                self.ear.fill(None);
+            } else if let Some(flat) = self.flat_corner(corner) {
+                corner = self.next[flat];
+                self.cut(flat, out);
+            } else {
+                break;
+            }
         }
+        // One triangle is left; or an outline without ears, of which a fan is as good as anything.
+        let mut last = self.next[corner];
+        while self.next[last] != corner {
+            out.push([corner, last, self.next[last]].map(|i| i as u32));
+            last = self.next[last];
+        }
+    }
+
+    /// Turns left, and no other corner lies in the triangle.
+    fn is_ear(&mut self, corner: usize) -> bool {
+        let triangle = self.triangle_at(corner);
+        if turn(self.flat, triangle) <= 0.0 {
+            return false;
+        }
+        let mut i = 0;
+        while let Some(&blocker) = self.blockers.get(i) {
+            if self.next[blocker] == CUT || self.turn_at(blocker) > 0.0 {
+                self.blockers.swap_remove(i);
+            } else if is_inside(self.flat, triangle, blocker) {
+                return false;
+            } else {
+                i += 1;
+            }
+        }
+        true
+    }
+
+    fn cut(&mut self, corner: usize, out: &mut Vec<[u32; 3]>) {
+        let [before, _, after] = self.triangle_at(corner);
+        out.push([before, corner, after].map(|i| i as u32));
+        self.next[before] = after;
+        self.previous[after] = before;
+        self.next[corner] = CUT;
+        self.left -= 1;
+        for neighbour in [before, after] {
+            self.ear[neighbour] = None;
+            // A corner can also become straight or turn right where outlines touch themselves.
+            if self.turn_at(neighbour) <= 0.0 && !self.blockers.contains(&neighbour) {
+                self.blockers.push(neighbour);
+            }
+        }
+    }
+
+    /// A corner on a straight line.
+    fn flat_corner(&self, start: usize) -> Option<usize> {
+        let corners = std::iter::successors(Some(start), |&corner| Some(self.next[corner]));
+        corners.take(self.left).find(|&corner| self.turn_at(corner) == 0.0)
     }
 }
 
-/// The directed edges of the triangles cancel to the polygon's.
-fn outline_is_kept(corners: usize, triangles: &[[u32; 3]]) -> bool {
-    let n = corners as u32;
-    let outline = (0..n).map(|i| ((i + 1) % n, i));
-    let edges = triangles.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]);
-    let mut net: Vec<(u32, u32, i32)> =
-        outline.chain(edges).map(|(a, b)| if a < b { (a, b, 1) } else { (b, a, -1) }).collect();
-    net.sort_unstable();
-    net.chunk_by(|x, y| (x.0, x.1) == (y.0, y.1))
-        .all(|same| same[0].0 == same[0].1 || same.iter().map(|edge| edge.2).sum::<i32>() == 0)
+/// Marks corners that have been cut off.
+const CUT: usize = usize::MAX;
+
+/// The corner lies in the closed triangle, but not at one of its corners, as where two parts of an
+/// outline touch or a bridge leads to a hole.
+fn is_inside(flat: &[[f64; 2]], [a, b, c]: [usize; 3], corner: usize) -> bool {
+    let at_corner = [a, b, c].iter().any(|&other| flat[other] == flat[corner]);
+    !at_corner && [[a, b], [b, c], [c, a]].iter().all(|&[i, j]| turn(flat, [i, j, corner]) >= 0.0)
 }
 
 #[cfg(test)]
@@ -147,8 +217,20 @@ mod tests {
 
     fn split(points: &[[f32; 3]]) -> Vec<[u32; 3]> {
         let mut out = Vec::new();
-        Triangulator::new().split(points, &mut out).unwrap();
+        triangulate(points, &mut out).unwrap();
         out
+    }
+
+    /// The directed edges of the triangles cancel to the polygon's.
+    fn outline_is_kept(corners: usize, triangles: &[[u32; 3]]) -> bool {
+        let n = corners as u32;
+        let outline = (0..n).map(|i| ((i + 1) % n, i));
+        let edges = triangles.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]);
+        let mut net: Vec<(u32, u32, i32)> =
+            outline.chain(edges).map(|(a, b)| if a < b { (a, b, 1) } else { (b, a, -1) }).collect();
+        net.sort_unstable();
+        net.chunk_by(|x, y| (x.0, x.1) == (y.0, y.1))
+            .all(|same| same[0].0 == same[0].1 || same.iter().map(|edge| edge.2).sum::<i32>() == 0)
     }
 
     fn area(points: &[[f32; 3]], triangles: &[[u32; 3]]) -> (f64, f64) {
@@ -180,9 +262,12 @@ mod tests {
 
     /// The points in four planes, among them one that is not axis-aligned.
     fn check_everywhere(flat: &[[f32; 2]], expected_area: f64) {
-        let in_planes: [fn(&[f32; 2]) -> [f32; 3]; 3] =
-            [|p| [p[0], p[1], 3.0], |p| [p[1], -2.0, p[0]], |p| [5.0, p[0], p[1]]];
-        for place in in_planes {
+        for axis in 0..3 {
+            let place = |p: &[f32; 2]| {
+                let mut point = [p[0], p[1], 3.0];
+                point.rotate_left(axis);
+                point
+            };
             check(&flat.iter().map(place).collect::<Vec<_>>(), expected_area);
         }
         let slanted: Vec<_> = flat.iter().map(|p| [p[0], p[1], p[0] + p[1]]).collect();
@@ -232,9 +317,37 @@ mod tests {
     }
 
     #[test]
+    fn outlines_around_the_same_square_again_and_again_end_soon() {
+        let square = [[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+        let often: Vec<[f32; 3]> = (0..4000).map(|i| square[(i * i + i / 7) % 4]).collect();
+        let triangles = split(&often);
+        assert!(outline_is_kept(often.len(), &triangles));
+    }
+
+    #[test]
+    fn random_star_shapes_are_tiled() {
+        let mut state = 1_u32;
+        let mut random = || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            f64::from(state >> 8) / f64::from(1 << 24)
+        };
+        for corners in 4..200 {
+            let points: Vec<[f32; 2]> = (0..corners)
+                .map(|i| {
+                    let angle = std::f64::consts::TAU * f64::from(i) / f64::from(corners);
+                    let radius = 0.2 + random();
+                    [(radius * angle.cos()) as f32, (radius * angle.sin()) as f32]
+                })
+                .collect();
+            let lifted: Vec<[f32; 3]> = points.iter().map(|p| [p[0], p[1], 0.0]).collect();
+            check_everywhere(&points, newell_normal(&lifted).length() / 2.0);
+        }
+    }
+
+    #[test]
     fn endless_outlines_are_refused() {
         let zigzag: Vec<[f32; 3]> =
             (0..=MAX_CONCAVE_CORNERS).map(|i| [i as f32, (i % 2) as f32, 0.0]).collect();
-        assert_eq!(Triangulator::new().split(&zigzag, &mut Vec::new()), Err(TooManyCorners));
+        assert_eq!(triangulate(&zigzag, &mut Vec::new()), Err(TooManyCorners));
     }
 }

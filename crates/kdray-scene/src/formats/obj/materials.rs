@@ -74,7 +74,7 @@ fn read_libraries(
     let several: Vec<&str> = if is_one { vec![names] } else { names.split_whitespace().collect() };
     for name in several {
         if let Err(error) = read_library(name, request, &mut materials) {
-            builder.warn(format!("line {line}: material library {name:?}: {error}"));
+            builder.warn(format!("line {line}: material library left out: {error}"));
         }
     }
     materials
@@ -85,13 +85,16 @@ fn read_library(
     request: &Request<'_>,
     materials: &mut Vec<Statements>,
 ) -> Result<(), LoadError> {
-    let fail = |error| request.read_error(error);
-    let (path, file) = request.siblings.open(name).map_err(fail)?;
+    let (path, file) = request
+        .siblings
+        .open(name)
+        .map_err(|source| LoadError::Io { file: name.to_owned(), source })?;
+    let path = path.display().to_string();
+    let library = Request { file: &path, ..*request };
+    let fail = |error| library.read_error(error);
     let file = Limited::new(file, request.options.max_bytes);
     let (start, bytes) = peek(Box::new(file), 4).map_err(fail)?;
     let bytes = utf8(bytes, &start).map_err(fail)?;
-    let path = path.display().to_string();
-    let library = Request { file: &path, ..*request };
     let mut scanner = Scanner::new(bytes, &library);
     let mut line = Vec::new();
     while scanner.line(&mut line)? {
