@@ -1,5 +1,6 @@
 //! The readers, one a format.
 
+mod gltf;
 mod obj;
 mod off;
 mod ply;
@@ -46,10 +47,6 @@ pub(crate) fn read_format(
         Format::Ply => ply::read(bytes, request),
         Format::Stl => stl::read(bytes, start, request),
         Format::Off => off::read(bytes, request),
-        _ => Err(LoadError::Unsupported {
-            file: request.file.to_owned(),
-            place: Place::Byte(0),
-            what: format!("the format {format:?}"),
-        }),
+        Format::Gltf => gltf::read(bytes, start, request),
     }
 }
