@@ -7,7 +7,6 @@
 //! The tree is the same bit for bit on every run and for any number of threads. What a build may
 //! take is bounded: leaves list at most [`BuildOptions::reference_quota`] entries together.
 
-mod cost;
 mod distribute;
 mod error;
 mod median;
@@ -22,7 +21,7 @@ mod sah;
 mod steps;
 mod subtree;
 
-pub use cost::{CostModel, Termination};
+pub use crate::tree::{CostModel, Termination};
 pub use error::BuildError;
 pub use options::{BuildOptions, SahBuilder, Strategy};
 pub use progress::BuildProgress;

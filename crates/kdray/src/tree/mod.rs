@@ -1,9 +1,11 @@
 //! The canonical kd-tree, from which everything else is derived.
 
+mod cost;
 mod node;
 mod stats;
 mod validate;
 
+pub use cost::{CostModel, Termination};
 pub use node::{Node, NodeKind};
 pub use stats::TreeStats;
 pub use validate::TreeError;

@@ -1,7 +1,7 @@
 //! Figures of a tree.
 
+use super::CostModel;
 use super::{KdTree, NodeKind};
-use crate::build::CostModel;
 
 /// What a tree is made of, and what it is expected to cost.
 #[derive(Clone, Debug, Default, PartialEq)]

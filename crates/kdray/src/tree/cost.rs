@@ -71,7 +71,7 @@ impl CostModel {
     }
 
     /// Whether a node of `count` primitives is better cut, at `cost`, than left a leaf.
-    pub(super) fn is_worth(&self, cost: f64, count: usize) -> bool {
+    pub(crate) fn is_worth(&self, cost: f64, count: usize) -> bool {
         self.termination == Termination::LimitsOnly || cost < self.leaf(count)
     }
 }
