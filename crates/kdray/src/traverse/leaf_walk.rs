@@ -1,14 +1,16 @@
 //! The stack traversal of a kd-tree (S11; Havran 2000, §4.4; Hapala & Havran 2011).
 
 use super::trace::{LeafStep, SplitStep, Trace, TraversalCase};
-use crate::geometry::{Ray, t_above, t_below};
+use crate::geometry::{Interval, Ray, t_above, t_below};
 use crate::tree::{KdTree, MAX_DEPTH, NodeKind};
 use arrayvec::ArrayVec;
 
 /// The leaves of a tree that a ray passes, front to back.
 ///
-/// Cells are disjoint but for their faces, so once a leaf has been yielded, no hit in a later one
-/// has a t below that leaf's `t_near`.
+/// Cells are disjoint but for their faces, so leaves come by rising t, with two exceptions: a ray
+/// that runs in a split plane passes the cells on both sides of it one side after the other, and
+/// near a plane intervals overlap by what rounding may hide. So a later leaf may hold an earlier
+/// hit; [`t_next`](Self::t_next) bounds all that are left.
 pub struct LeafWalk<'a, const K: usize> {
     tree: &'a KdTree<K>,
     ray: Ray<K>,
@@ -22,6 +24,8 @@ struct Waiting {
     node: u32,
     t_near: f64,
     t_far: f64,
+    /// The least `t_near` of this node and of all that have waited longer.
+    t_next: f64,
 }
 
 /// A leaf that the ray passes.
@@ -41,8 +45,8 @@ impl<'a, const K: usize> LeafWalk<'a, K> {
         let interval = if ray.check().is_ok() { tree.bounds.slab(ray) } else { None };
         trace.root(interval);
         let mut stack = ArrayVec::new();
-        if let Some(interval) = interval {
-            stack.push(Waiting { node: 0, t_near: interval.t_min, t_far: interval.t_max });
+        if let Some(Interval { t_min: t_near, t_max: t_far }) = interval {
+            stack.push(Waiting { node: 0, t_near, t_far, t_next: t_near });
         }
         Self { tree, ray: *ray, inverse: ray.direction.map(inverse), stack }
     }
@@ -50,19 +54,13 @@ impl<'a, const K: usize> LeafWalk<'a, K> {
     /// A bound that no hit in the leaves to come is below; infinite at the end.
     #[inline]
     pub fn t_next(&self) -> f64 {
-        self.stack.last().map_or(f64::INFINITY, |waiting| waiting.t_near)
+        self.stack.last().map_or(f64::INFINITY, |waiting| waiting.t_next)
     }
 
     /// The next leaf, unless the walk is over or no t up to `t_limit` lies in it.
     #[inline]
     pub fn next_leaf(&mut self, t_limit: f64, trace: &mut impl Trace) -> Option<LeafVisit<'a>> {
-        let Waiting { mut node, t_near, mut t_far } = self.stack.pop()?;
-        if t_near > t_limit {
-            self.stack.clear();
-            trace.finish_early(t_limit, t_near);
-            return None;
-        }
-        trace.pop(node, t_near);
+        let Waiting { mut node, t_near, mut t_far, .. } = self.pop(t_limit, trace)?;
         loop {
             match self.tree.nodes[node as usize].kind() {
                 NodeKind::Inner { axis, split, above } => {
@@ -98,8 +96,7 @@ impl<'a, const K: usize> LeafWalk<'a, K> {
                         TraversalCase::NearOnly => node = near,
                         TraversalCase::FarOnly => node = far,
                         TraversalCase::NearThenFar => {
-                            let t_near_of_far = t_below(t_split).max(t_near);
-                            self.stack.push(Waiting { node: far, t_near: t_near_of_far, t_far });
+                            self.push(far, t_below(t_split).max(t_near), t_far);
                             t_far = t_above(t_split).min(t_far);
                             node = near;
                         }
@@ -114,6 +111,29 @@ impl<'a, const K: usize> LeafWalk<'a, K> {
                 }
             }
         }
+    }
+
+    /// Lets a node wait.
+    #[inline]
+    fn push(&mut self, node: u32, t_near: f64, t_far: f64) {
+        let t_next = t_near.min(self.t_next());
+        self.stack.push(Waiting { node, t_near, t_far, t_next });
+    }
+
+    /// The node that has waited shortest of those that begin before `t_limit`.
+    #[inline]
+    fn pop(&mut self, t_limit: f64, trace: &mut impl Trace) -> Option<Waiting> {
+        while let Some(waiting) = self.stack.pop() {
+            if waiting.t_near <= t_limit {
+                trace.pop(waiting.node, waiting.t_near);
+                return Some(waiting);
+            }
+            if waiting.t_next > t_limit {
+                self.stack.clear();
+                trace.finish_early(t_limit, waiting.t_next);
+            }
+        }
+        None
     }
 }
 
