@@ -1,1 +1,13 @@
-//! Placeholder.
+//! What the tests share: an oracle in rational arithmetic, meshes and rays that are hard on
+//! purpose, the scenes beside the checkout, and a fast answer without a tree.
+
+pub mod agree;
+pub mod command_line;
+pub mod flat;
+pub mod meshes;
+pub mod oracle;
+pub mod rays;
+pub mod shared;
+pub mod subject;
+
+pub use subject::Subject;

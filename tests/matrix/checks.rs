@@ -1,0 +1,100 @@
+//! What is compared.
+
+use crate::cases::{Aimed, Case};
+use kdray::{BuildOptions, Hit, Scene};
+use kdray_tests::Subject;
+use kdray_tests::oracle::{agrees_on_all, agrees_on_closest};
+use kdray_tests::rays::Archer;
+use rayon::prelude::*;
+
+/// How many rays are aimed along the split planes of each tree.
+const IN_SPLIT_PLANES: usize = 60;
+
+/// Builds a tree over each case and checks the answer to each of its rays, and to rays in the
+/// tree's split planes.
+pub(crate) fn on_each<S: Subject<K> + Clone + Send + Sync, const K: usize>(
+    options: &BuildOptions,
+    cases: &[Case<S, K>],
+    check: impl Fn(&Scene<S, K>, &Aimed<K>) -> Result<(), String> + Sync,
+) {
+    for case in cases {
+        let scene = Scene::build(case.subject.clone(), options).expect("cases are valid");
+        let mut archer = Archer::new(&case.subject, case.seed);
+        let in_planes: Vec<_> = archer
+            .in_split_planes(scene.tree(), IN_SPLIT_PLANES)
+            .into_iter()
+            .map(|ray| Aimed::new(&case.subject, ray))
+            .collect();
+        let aimed: Vec<_> = case.aimed.iter().chain(&in_planes).collect();
+        let wrong = |(index, aimed): (usize, &&Aimed<K>)| {
+            let error = check(&scene, aimed).err()?;
+            Some(format!("case {:?}, ray {index}, {:?}: {error}", case.name, aimed.ray))
+        };
+        let wrong: Vec<_> = aimed.par_iter().enumerate().filter_map(wrong).collect();
+        if let Some(first) = wrong.first() {
+            panic!("{} of {} rays: {first}", wrong.len(), aimed.len());
+        }
+    }
+}
+
+/// The nearest primitive touched, the same as without the tree to the last bit.
+pub(crate) fn closest_hit<S: Subject<K>, const K: usize>(
+    scene: &Scene<S, K>,
+    aimed: &Aimed<K>,
+) -> Result<(), String> {
+    let found = scene.closest_hit(&aimed.ray);
+    same(&found, &aimed.touched.naive.first().copied())?;
+    same(&found, &scene.naive().closest_hit(&aimed.ray))?;
+    match &aimed.touched.exact {
+        Some(exact) => agrees_on_closest(exact, found.as_ref(), &aimed.ray),
+        None => Ok(()),
+    }
+}
+
+/// Whether anything is touched.
+pub(crate) fn any_hit<S: Subject<K>, const K: usize>(
+    scene: &Scene<S, K>,
+    aimed: &Aimed<K>,
+) -> Result<(), String> {
+    let found = scene.any_hit(&aimed.ray);
+    same(&found, &!aimed.touched.naive.is_empty())?;
+    same(&found, &scene.naive().any_hit(&aimed.ray))
+}
+
+/// Every crossing, in order.
+pub(crate) fn all_hits<S: Subject<K>, const K: usize>(
+    scene: &Scene<S, K>,
+    aimed: &Aimed<K>,
+) -> Result<(), String> {
+    let found: Vec<Hit> = scene.all_hits(&aimed.ray).collect();
+    same(&found, &aimed.crossed.naive)?;
+    match &aimed.crossed.exact {
+        Some(exact) => agrees_on_all(exact, &found, &aimed.ray),
+        None => Ok(()),
+    }
+}
+
+/// Every primitive touched, in order.
+pub(crate) fn all_touched<S: Subject<K>, const K: usize>(
+    scene: &Scene<S, K>,
+    aimed: &Aimed<K>,
+) -> Result<(), String> {
+    let found: Vec<Hit> = scene.all_touched(&aimed.ray).collect();
+    same(&found, &aimed.touched.naive)?;
+    match &aimed.touched.exact {
+        Some(exact) => agrees_on_all(exact, &found, &aimed.ray),
+        None => Ok(()),
+    }
+}
+
+/// The number of crossings.
+pub(crate) fn count<S: Subject<K>, const K: usize>(
+    scene: &Scene<S, K>,
+    aimed: &Aimed<K>,
+) -> Result<(), String> {
+    same(&scene.count(&aimed.ray), &aimed.crossed.naive.len())
+}
+
+fn same<T: PartialEq + std::fmt::Debug>(found: &T, naive: &T) -> Result<(), String> {
+    if found == naive { Ok(()) } else { Err(format!("found {found:?}, without a tree {naive:?}")) }
+}

@@ -1,0 +1,55 @@
+//! Every strategy, kind of primitive and query, against the answer of testing every primitive and
+//! against rational arithmetic. A test's name says which: `sah::triangles::closest_hit`.
+
+mod cases;
+mod checks;
+
+use cases::{BALLS_2D, BALLS_3D, SEGMENTS, TRIANGLES};
+use checks::{all_hits, all_touched, any_hit, closest_hit, count};
+use kdray::build::SahBuilder;
+use kdray::{BuildOptions, Strategy};
+
+macro_rules! queries {
+    ($kind:ident, $cases:expr, $($query:ident)*) => {
+        mod $kind {
+            use super::*;
+
+            $(
+                #[test]
+                fn $query() {
+                    checks::on_each(&options(), &$cases, super::$query);
+                }
+            )*
+        }
+    };
+}
+
+macro_rules! builder {
+    ($name:ident, $options:expr) => {
+        mod $name {
+            use super::*;
+
+            fn options() -> BuildOptions {
+                $options
+            }
+
+            queries!(triangles, TRIANGLES, closest_hit any_hit all_hits all_touched count);
+            queries!(segments, SEGMENTS, closest_hit any_hit all_hits all_touched count);
+            queries!(balls_2d, BALLS_2D, closest_hit any_hit all_hits all_touched count);
+            queries!(balls_3d, BALLS_3D, closest_hit any_hit all_hits all_touched count);
+        }
+    };
+}
+
+/// Leaves of one primitive where the strategy can: the deepest trees, with the most cells to lose
+/// a hit between.
+fn deep(strategy: Strategy) -> BuildOptions {
+    BuildOptions { strategy, leaf_size: 1, ..BuildOptions::default() }
+}
+
+builder!(middle, deep(Strategy::Middle));
+builder!(median, deep(Strategy::Median));
+builder!(round_robin, deep(Strategy::RoundRobin));
+builder!(sah, deep(Strategy::Sah));
+builder!(sah_naive, BuildOptions { sah_builder: SahBuilder::Naive, ..deep(Strategy::Sah) });
+builder!(one_leaf, BuildOptions { leaf_size: usize::MAX, ..BuildOptions::default() });

@@ -1,0 +1,3 @@
+//! One file for each bug that was fixed, named for what it was.
+
+mod order_of_waiting_nodes;

@@ -1,0 +1,117 @@
+//! Closest hits through trees, against every triangle.
+
+use crate::flat::Flat;
+use crate::rays::random;
+use crate::shared::CameraInfo;
+use kdray::{BuildOptions, Hit, Ray, Scene, Strategy, TriangleMesh};
+use rand::RngExt;
+use rayon::prelude::*;
+
+/// The strategies by the names that the command line uses.
+pub const STRATEGIES: [(&str, Strategy); 4] = [
+    ("middle", Strategy::Middle),
+    ("median", Strategy::Median),
+    ("round-robin", Strategy::RoundRobin),
+    ("sah", Strategy::Sah),
+];
+
+/// What a comparison found.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Differences {
+    /// Rays on which one answer is a hit and the other a miss.
+    pub hit_or_miss: usize,
+    /// Rays on which the primitives differ though t does not allow it.
+    pub primitive: usize,
+    /// Rays on which the answers differ in any other bit.
+    pub other: usize,
+    /// One ray of the first kind found, with both answers.
+    pub example: Option<String>,
+}
+
+impl Differences {
+    /// Whether there are none.
+    pub fn none(&self) -> bool {
+        (self.hit_or_miss, self.primitive, self.other) == (0, 0, 0)
+    }
+}
+
+/// The rays of a picture of `size` x `size` pixels, through the middle of each.
+pub fn view(camera: &CameraInfo, size: usize) -> Vec<Ray<3>> {
+    let forward = unit(minus(camera.look_at, camera.eye));
+    let right = unit(cross(forward, camera.up));
+    let up = cross(right, forward);
+    let half = (camera.vfov_deg.to_radians() / 2.0).tan();
+    let place = |i: usize| (2.0 * (i as f64 + 0.5) / size as f64 - 1.0) * half;
+    let ray = |(x, y): (usize, usize)| {
+        let (x, y) = (place(x), -place(y));
+        let direction = std::array::from_fn(|k| forward[k] + x * right[k] + y * up[k]);
+        Ray::new(camera.eye, direction)
+    };
+    (0..size).flat_map(|y| (0..size).map(move |x| (x, y))).map(ray).collect()
+}
+
+/// Rays between random points of a box a quarter larger than that of the mesh.
+pub fn random_rays(mesh: &TriangleMesh, count: usize, seed: u64) -> Vec<Ray<3>> {
+    let bounds = kdray::Aabb::of_points(
+        mesh.triangles().iter().flatten().map(|&v| mesh.vertices()[v as usize]),
+    );
+    if bounds.is_empty() {
+        return vec![Ray::new([0.0; 3], [1.0; 3]); count];
+    }
+    let mut random = random(seed);
+    let (center, extent) = (bounds.center(), bounds.extent());
+    let mut point = || -> [f64; 3] {
+        std::array::from_fn(|k| center[k] + 0.625 * extent[k] * random.random_range(-1.0..1.0))
+    };
+    (0..count).map(|_| Ray::through(point(), point())).collect()
+}
+
+/// The answers without a tree.
+pub fn flat_answers(mesh: &TriangleMesh, rays: &[Ray<3>]) -> Vec<Option<Hit>> {
+    let flat = Flat::new(mesh);
+    rays.par_iter().map(|ray| flat.closest_hit(ray)).collect()
+}
+
+/// Builds a tree over `mesh` and compares its closest hits with `answers`.
+///
+/// # Panics
+/// If the build is refused.
+pub fn compare(
+    mesh: &TriangleMesh,
+    strategy: Strategy,
+    rays: &[Ray<3>],
+    answers: &[Option<Hit>],
+) -> Differences {
+    let options = BuildOptions { strategy, ..BuildOptions::default() };
+    let scene = Scene::build(mesh.clone(), &options).expect("a valid mesh has a tree");
+    let found: Vec<_> = rays.par_iter().map(|ray| scene.closest_hit(ray)).collect();
+    let mut differences = Differences::default();
+    for ((ray, found), answer) in rays.iter().zip(found).zip(answers) {
+        let kind = match (found, answer) {
+            (found, answer) if found == *answer => continue,
+            (Some(found), Some(answer)) if found.t == answer.t => &mut differences.other,
+            (Some(_), Some(_)) => &mut differences.primitive,
+            _ => &mut differences.hit_or_miss,
+        };
+        *kind += 1;
+        let example = || format!("{ray:?}: {found:?}, without a tree {answer:?}");
+        differences.example.get_or_insert_with(example);
+    }
+    differences
+}
+
+fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|k| a[k] - b[k])
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|k| {
+        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+        a[i] * b[j] - a[j] * b[i]
+    })
+}
+
+fn unit(a: [f64; 3]) -> [f64; 3] {
+    let length = a.iter().map(|x| x * x).sum::<f64>().sqrt();
+    a.map(|x| x / length)
+}

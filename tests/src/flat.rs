@@ -1,0 +1,142 @@
+//! A fast answer without a tree: every triangle is considered for every ray.
+//!
+//! Triangles stand in a flat list, neighbours in space near each other, in blocks with a bounding
+//! sphere. A ray passes over a block only if its line stays clear of the sphere by far more than
+//! rounding can explain; every triangle of every other block is put to kdray's own test. Nothing
+//! of kdray's trees, boxes and traversals is used.
+
+use kdray::primitives::{HitRule, intersect_triangle};
+use kdray::{Hit, Ray, TriangleMesh};
+
+/// How many triangles share a bounding sphere, and how many spheres a larger one.
+const BLOCK: usize = 16;
+
+/// A mesh laid out for testing all its triangles.
+pub struct Flat {
+    triangles: Vec<([[f32; 3]; 3], u32)>,
+    /// The spheres around each [`BLOCK`] triangles.
+    spheres: Vec<Sphere>,
+    /// The spheres around each [`BLOCK`] spheres.
+    outer_spheres: Vec<Sphere>,
+}
+
+#[derive(Clone, Copy)]
+struct Sphere {
+    center: [f64; 3],
+    radius: f64,
+}
+
+impl Flat {
+    /// Lays out a mesh.
+    pub fn new(mesh: &TriangleMesh) -> Self {
+        let ids = 0..mesh.triangles().len() as u32;
+        let mut triangles: Vec<_> = ids.map(|id| (mesh.corners(id), id)).collect();
+        let middle = |corners: &[[f32; 3]; 3]| {
+            let sum = |k: usize| corners.iter().map(|p| f64::from(p[k])).sum::<f64>() / 3.0;
+            [sum(0), sum(1), sum(2)]
+        };
+        let (min, max) = ends(triangles.iter().map(|(corners, _)| middle(corners)));
+        triangles.sort_by_cached_key(|(corners, id)| (z_order(middle(corners), min, max), *id));
+        let spheres: Vec<_> = triangles
+            .chunks(BLOCK)
+            .map(|block| {
+                let corners = block.iter().flat_map(|(corners, _)| corners);
+                Sphere::around(corners.map(|p| (p.map(f64::from), 0.0)))
+            })
+            .collect();
+        let outer_spheres = spheres
+            .chunks(BLOCK)
+            .map(|block| Sphere::around(block.iter().map(|s| (s.center, s.radius))))
+            .collect();
+        Self { triangles, spheres, outer_spheres }
+    }
+
+    /// The hit of least t; of several at the same t, the one of the smallest id.
+    pub fn closest_hit(&self, ray: &Ray<3>) -> Option<Hit> {
+        let mut best: Option<Hit> = None;
+        let line = Line::of(ray);
+        for (outer, outer_sphere) in self.outer_spheres.iter().enumerate() {
+            if line.is_clear_of(outer_sphere) {
+                continue;
+            }
+            for inner in chunk(outer, self.spheres.len()) {
+                if line.is_clear_of(&self.spheres[inner]) {
+                    continue;
+                }
+                for (corners, id) in &self.triangles[chunk(inner, self.triangles.len())] {
+                    let hit = intersect_triangle(corners, *id, ray, HitRule::Touching);
+                    best = match (best, hit) {
+                        (Some(best), Some(hit)) if best.precedes(&hit) => Some(best),
+                        (best, hit) => hit.or(best),
+                    };
+                }
+            }
+        }
+        best
+    }
+}
+
+/// The places of block `index` in a list of `len`.
+fn chunk(index: usize, len: usize) -> std::ops::Range<usize> {
+    index * BLOCK..len.min((index + 1) * BLOCK)
+}
+
+/// The smallest and largest coordinates of points.
+fn ends(points: impl Iterator<Item = [f64; 3]>) -> ([f64; 3], [f64; 3]) {
+    let none = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+    points.fold(none, |(min, max), p| {
+        let lower = std::array::from_fn(|k| min[k].min(p[k]));
+        (lower, std::array::from_fn(|k| max[k].max(p[k])))
+    })
+}
+
+/// Morton's order (1966): the bits of the three coordinates in turn, 20 of each.
+fn z_order(p: [f64; 3], min: [f64; 3], max: [f64; 3]) -> u64 {
+    let place = |k: usize| {
+        let extent = (max[k] - min[k]).max(f64::MIN_POSITIVE);
+        ((p[k] - min[k]) / extent * f64::from((1 << 20) - 1)) as u64
+    };
+    let places = [place(0), place(1), place(2)];
+    (0..60).fold(0, |key, bit| key | (places[bit % 3] >> (bit / 3) & 1) << bit)
+}
+
+impl Sphere {
+    /// A sphere around spheres, grown by far more than its own rounding.
+    fn around(spheres: impl Iterator<Item = ([f64; 3], f64)> + Clone) -> Self {
+        let (min, max) = ends(spheres.clone().map(|(center, _)| center));
+        let center: [f64; 3] = std::array::from_fn(|k| 0.5 * (min[k] + max[k]));
+        let reach = spheres.map(|(p, radius)| distance(p, center) + radius);
+        let largest = center.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        let radius = reach.fold(0.0, f64::max) * (1.0 + 1e-9) + 1e-12 * largest;
+        Self { center, radius }
+    }
+}
+
+fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3).map(|k| (a[k] - b[k]) * (a[k] - b[k])).sum::<f64>().sqrt()
+}
+
+/// The line of a ray, its direction of length one.
+struct Line {
+    origin: [f64; 3],
+    direction: [f64; 3],
+}
+
+impl Line {
+    fn of(ray: &Ray<3>) -> Self {
+        let length = distance(ray.direction, [0.0; 3]);
+        Self { origin: ray.origin, direction: ray.direction.map(|d| d / length) }
+    }
+
+    /// Whether the line surely passes the sphere by. The distance of its centre from the line errs
+    /// by less than 2^-48 of its distance from the origin. Never true if anything is NaN.
+    #[inline]
+    fn is_clear_of(&self, sphere: &Sphere) -> bool {
+        let [x, y, z]: [f64; 3] = std::array::from_fn(|k| sphere.center[k] - self.origin[k]);
+        let [a, b, c] = self.direction;
+        let (i, j, k) = (y * c - z * b, z * a - x * c, x * b - y * a);
+        let doubt = 1e-12 * (x.abs() + y.abs() + z.abs());
+        let radius = sphere.radius + doubt;
+        i * i + j * j + k * k > radius * radius * (1.0 + 1e-9)
+    }
+}

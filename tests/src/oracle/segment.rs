@@ -1,0 +1,34 @@
+//! A line and a segment in the plane.
+
+use super::{ExactHit, Terms, decide, integers, ratio, share, side_of, surely_missed};
+use kdray::Ray;
+use kdray::primitives::HitRule;
+
+/// Where the line of `ray` hits the segment by `rule`, whatever the ray's interval.
+pub fn exact_segment_hit(
+    ends: &[[f32; 2]; 2],
+    id: u32,
+    ray: &Ray<2>,
+    rule: HitRule,
+) -> Option<ExactHit> {
+    let ends = ends.map(|p| p.map(f64::from));
+    if surely_missed(&ends, ray) {
+        return None;
+    }
+    let [a, b] = ends;
+    let [a, b, o, d] = integers([a, b, ray.origin, ray.direction]);
+    let ab = b.minus(&a);
+    // The front of a segment is its left.
+    let normal = ab.left();
+    let length_squared = ab.dot(&ab);
+    let height = normal.dot(&a.minus(&o));
+    let terms = decide(&d, rule, |direction| {
+        let along_normal = normal.dot(direction);
+        let q = o.minus(&a).times(&along_normal).plus(&direction.times(&height));
+        let u = q.dot(&ab);
+        let w = &along_normal * &length_squared - &u;
+        Terms { along_normal, weights: [w, u] }
+    })?;
+    let (u, side) = (share(&terms, 1), side_of(&terms));
+    Some(ExactHit { primitive_id: id, t: ratio(height, terms.along_normal), u, v: 0.0, side })
+}
