@@ -43,10 +43,3 @@ pub(crate) enum RaysError {
         reason: String,
     },
 }
-
-impl RaysError {
-    /// A line that is no ray.
-    pub(super) fn line(line: u64, reason: impl Into<String>) -> Self {
-        Self::Line { line, reason: reason.into() }
-    }
-}

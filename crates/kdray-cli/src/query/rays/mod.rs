@@ -3,7 +3,6 @@
 mod csv;
 mod npy;
 mod npy_header;
-mod short_lines;
 
 use self::{csv::CsvRays, npy::NpyRays};
 use super::{Precision, RaysError};
@@ -41,7 +40,7 @@ impl RayReader {
         if npy_header::is_magic(file.fill_buf()?) {
             return NpyRays::new(Source::File(file)).map(Self::Npy);
         }
-        CsvRays::new(Box::new(file)).map(Self::Csv)
+        Ok(Self::Csv(CsvRays::new(Box::new(file))))
     }
 
     fn from_stream(mut stream: impl Read + 'static) -> Result<Self, RaysError> {
@@ -53,7 +52,7 @@ impl RayReader {
         if npy {
             return NpyRays::new(Source::Stream(whole)).map(Self::Npy);
         }
-        CsvRays::new(whole).map(Self::Csv)
+        Ok(Self::Csv(CsvRays::new(whole)))
     }
 
     /// The precision of the numbers; those of a CSV file are taken for 64-bit.

@@ -1,0 +1,212 @@
+//! Each command does what its help says.
+
+mod support;
+
+use image::{GenericImageView, ImageReader};
+use std::{
+    fs,
+    path::Path,
+    process::{Child, Command, Stdio},
+    thread::sleep,
+    time::{Duration, Instant},
+};
+use support::{Folder, INTERRUPTED, OCTAHEDRON, USAGE, binary, bumpy_ball};
+
+const SMALL: [&str; 4] = ["--size", "24x16", "--samples", "1"];
+
+fn render(folder: &Folder, arguments: &[&str]) {
+    folder.kdray(&[&["render", "ball.off"], &SMALL[..], arguments].concat()).succeeds();
+}
+
+fn folder() -> Folder {
+    let folder = Folder::new();
+    folder.file("ball.off", OCTAHEDRON);
+    folder
+}
+
+fn picture(path: &Path) -> image::DynamicImage {
+    ImageReader::open(path).expect("the picture").decode().expect("a picture")
+}
+
+#[test]
+fn render_writes_png_and_exr() {
+    let folder = folder();
+    let arguments = [&["render", "ball.off", "--light", "3,4,5"], &SMALL[..]].concat();
+    let ran = folder.kdray(&arguments).succeeds();
+    assert!(ran.stderr.contains("rendered 24 x 16 pixels"), "{}", ran.stderr);
+    assert!(ran.stdout.is_empty());
+    assert_eq!(picture(&folder.path("kdray.png")).dimensions(), (24, 16));
+    render(&folder, &["-o", "fine.png", "--bits", "16"]);
+    assert_eq!(picture(&folder.path("fine.png")).color(), image::ColorType::Rgba16);
+    render(&folder, &["-o", "one.exr"]);
+    render(&folder, &["-o", "all.exr", "--layers"]);
+    let size = |name: &str| fs::metadata(folder.path(name)).expect("the picture").len();
+    assert!(size("all.exr") > size("one.exr"));
+    assert_eq!(folder.names(), ["all.exr", "ball.off", "fine.png", "kdray.png", "one.exr"]);
+}
+
+#[test]
+fn each_kind_of_picture_differs() {
+    let folder = folder();
+    let kinds = ["shaded", "depth", "normal", "primitive-id", "ambient-occlusion", "cost"];
+    let mut seen: Vec<Vec<u8>> = Vec::new();
+    for kind in kinds {
+        render(&folder, &["--picture", kind]);
+        let pixels = picture(&folder.path("kdray.png")).to_rgba8().into_raw();
+        assert!(!seen.contains(&pixels), "{kind}");
+        seen.push(pixels);
+    }
+}
+
+#[test]
+fn the_picture_depends_on_the_view_and_not_on_split_or_threads() {
+    let folder = folder();
+    let pixels = |arguments: &[&str]| {
+        render(&folder, arguments);
+        fs::read(folder.path("kdray.png")).expect("the picture")
+    };
+    let first = pixels(&[]);
+    assert_eq!(pixels(&["--threads", "3", "--split", "median", "--leaf-size", "9"]), first);
+    let views = [
+        ["--eye=-3,1,0", "--up=0,0,1"],
+        ["--fov", "70"],
+        ["--light", "0,-4,0"],
+        ["--background", "1,0,0"],
+    ];
+    for view in views {
+        assert_ne!(pixels(&view), first, "{view:?}");
+    }
+}
+
+#[test]
+fn cameras_of_a_file_are_named() {
+    let ran = folder().kdray(&["render", "ball.off", "--camera", "left"]);
+    ran.fails(USAGE, &["no such camera; the scene has none"]);
+    let ran = folder().kdray(&["render", "--camera", "99"]);
+    ran.fails(USAGE, &["no such camera; the scene has 0 `"]);
+}
+
+#[test]
+fn quiet_says_nothing() {
+    let folder = folder();
+    let ran = folder.kdray(&[&["render", "ball.off", "--quiet"], &SMALL[..]].concat()).succeeds();
+    assert_eq!(ran.stderr, "");
+}
+
+#[test]
+fn stats_and_validate_print_tables_and_json() {
+    let folder = Folder::new();
+    folder.file("ball.off", bumpy_ball(20, 30));
+    let table = folder.kdray(&["stats", "ball.off"]).succeeds().stdout;
+    assert!(
+        table
+            .lines()
+            .next()
+            .is_some_and(|line| { line.starts_with("triangles ") && line.ends_with(" 1200") })
+    );
+    let json = |arguments: &[&str]| -> serde_json::Value {
+        let text = folder.kdray(arguments).succeeds().stdout;
+        serde_json::from_str(&text).expect("JSON")
+    };
+    let fine = json(&["stats", "ball.off", "--json"]);
+    let coarse = json(&["stats", "ball.off", "--json", "--max-depth", "3"]);
+    assert_eq!(fine["triangles"], 1200);
+    assert_eq!(fine["split"], "sah");
+    assert_eq!(coarse["max_depth"], 3);
+    assert!(fine["sah_cost"].as_f64() < coarse["sah_cost"].as_f64());
+    let leaves: u64 = fine["leaves_at_depth"]
+        .as_array()
+        .map_or(0, |depths| depths.iter().filter_map(serde_json::Value::as_u64).sum());
+    assert_eq!(fine["leaves"], leaves);
+
+    for split in ["sah", "middle", "median", "round-robin"] {
+        let found = json(&["validate", "ball.off", "--json", "--split", split]);
+        assert_eq!(found["valid"], true, "{split}");
+    }
+    let line = folder.kdray(&["validate", "ball.off"]).succeeds().stdout;
+    assert!(line.starts_with("the tree is valid: "), "{line}");
+}
+
+#[test]
+fn a_scene_can_come_from_standard_input() {
+    let arguments = ["stats", "-", "--format", "off", "--json"];
+    let ran = folder().kdray_reading(&arguments, OCTAHEDRON).succeeds();
+    assert!(ran.stdout.contains("\"triangles\": 8"), "{}", ran.stdout);
+}
+
+#[test]
+fn every_command_has_help_with_an_example() {
+    let folder = Folder::new();
+    let help = folder.kdray(&["--help"]).succeeds().stdout;
+    for part in ["Exit codes:", "130", "Example:"] {
+        assert!(help.contains(part), "{part}");
+    }
+    for command in ["render", "stats", "validate", "query", "completions", "man"] {
+        let help = folder.kdray(&[command, "--help"]).succeeds().stdout;
+        assert!(help.contains("Example:"), "{command}: {help}");
+    }
+}
+
+#[test]
+fn completions_and_manual_pages_are_made() {
+    let folder = Folder::new();
+    for shell in ["bash", "elvish", "fish", "powershell", "zsh"] {
+        let script = folder.kdray(&["completions", shell]).succeeds().stdout;
+        assert!(script.contains("max-depth"), "{shell}");
+    }
+    let page = folder.kdray(&["man"]).succeeds().stdout;
+    assert!(page.contains(".TH kdray 1"), "{page}");
+    folder.kdray(&["man", "--out", "pages"]).succeeds();
+    let page = fs::read_to_string(folder.path("pages/kdray-query.1")).expect("the page");
+    assert!(page.contains("\\-\\-rays"), "{page}");
+    assert!(folder.path("pages/kdray.1").is_file());
+}
+
+/// Runs the command, interrupts it once it says `sign`, and returns its exit code.
+#[cfg(unix)]
+fn interrupted(folder: &Folder, arguments: &[&str], sign: &str) -> Option<i32> {
+    let said = fs::File::create(folder.path("said")).expect("a file");
+    let mut command = Command::new(binary());
+    command.args(arguments).current_dir(folder.path(""));
+    command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(said);
+    let mut child = command.spawn().expect("the command runs");
+    let start = Instant::now();
+    while !fs::read_to_string(folder.path("said")).expect("text").contains(sign) {
+        assert!(start.elapsed() < Duration::from_secs(60), "it does not say {sign}");
+        sleep(Duration::from_millis(10));
+    }
+    sleep(Duration::from_millis(100));
+    interrupt(&child);
+    let code = child.wait().expect("an end").code();
+    fs::remove_file(folder.path("said")).expect("the file");
+    code
+}
+
+#[cfg(unix)]
+fn interrupt(child: &Child) {
+    let id = child.id().to_string();
+    let status = Command::new("kill").args(["-INT", &id]).status().expect("kill runs");
+    assert!(status.success());
+}
+
+#[test]
+#[cfg(unix)]
+fn an_interrupted_render_writes_what_is_done() {
+    let folder = folder();
+    let arguments = ["render", "ball.off", "--size", "960x960", "--samples", "1000"];
+    assert_eq!(interrupted(&folder, &arguments, "built a tree"), Some(INTERRUPTED));
+    let picture = picture(&folder.path("kdray.png")).to_rgba8();
+    assert!(picture.pixels().any(|pixel| pixel.0 == [0; 4]), "nothing is left undone");
+    assert_eq!(folder.names(), ["ball.off", "kdray.png"]);
+}
+
+#[test]
+#[cfg(unix)]
+fn an_interrupted_query_leaves_nothing() {
+    let folder = Folder::new();
+    folder.file("ball.off", bumpy_ball(200, 200));
+    folder.file("rays.csv", "0.1,0.2,5,0,0,-1\n".repeat(100_000));
+    let arguments = ["query", "ball.off", "--rays", "rays.csv", "--naive", "--out", "hits.csv"];
+    assert_eq!(interrupted(&folder, &arguments, "read 80000 triangles"), Some(INTERRUPTED));
+    assert_eq!(folder.names(), ["ball.off", "rays.csv"]);
+}
