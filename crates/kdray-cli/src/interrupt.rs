@@ -17,7 +17,7 @@ static REQUESTED: AtomicBool = AtomicBool::new(false);
 static WATCHERS: AtomicUsize = AtomicUsize::new(0);
 static TEMPORARY_FILES: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
-/// Begins to listen for Ctrl-C and termination requests.
+/// Begins to listen for Ctrl-C, and for requests to terminate or to hang up, which count as such.
 pub(crate) fn listen() {
     let stop = || {
         let again = REQUESTED.swap(true, Ordering::SeqCst);

@@ -38,6 +38,8 @@ fn an_empty_mesh_is_a_scene_that_nothing_hits() {
     let folder = Folder::new();
     folder.file("empty.ply", ply(&[], &[]));
     assert!(folder.kdray(&["stats", "empty.ply"]).succeeds().stderr.contains("no triangles"));
+    let json = folder.kdray(&["stats", "empty.ply", "--json"]).succeeds().stdout;
+    assert!(json.contains("\"sah_cost\": 0.0"), "{json}");
     folder.kdray(&["validate", "empty.ply"]).succeeds();
     assert!(answer(&folder, "empty.ply", "closest").starts_with("inf,4294967295,4294967295,"));
     assert_eq!(answer(&folder, "empty.ply", "count"), "0\n");

@@ -21,7 +21,7 @@ impl FromStr for Size {
         let (width, height) = text
             .split_once(['x', 'X'])
             .and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)))
-            .ok_or("give width and height in pixels, such as 960x640")?;
+            .ok_or("give width and height in pixels, such as 960x540")?;
         match usize::checked_mul(width, height) {
             Some(0) => Err("a picture needs at least one pixel across and one down".to_owned()),
             Some(1..=MAX_PIXELS) => Ok(Self { width, height }),

@@ -10,7 +10,7 @@ use kdray_scene::{Camera, Light, Model, Projection};
 #[derive(Clone, Debug, clap::Args)]
 pub(crate) struct ViewArgs {
     /// The size of the picture in pixels
-    #[arg(long, value_name = "WxH", default_value = "960x640")]
+    #[arg(long, value_name = "WxH", default_value = "960x540")]
     pub(crate) size: Size,
     /// The observer; without it the file's first camera, or one that frames the scene
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = numbers::<3>)]

@@ -45,7 +45,8 @@ impl<const K: usize> KdTree<K> {
         for cell in self.cells() {
             // The chance that a line which meets the root's box meets this one. Lines miss a root
             // without surface; those aimed at it are taken to meet all of it.
-            let chance = if surface > 0.0 { cell.bounds.half_surface() / surface } else { 1.0 };
+            let has_surface = surface > 0.0 && !self.bounds.is_empty();
+            let chance = if has_surface { cell.bounds.half_surface() / surface } else { 1.0 };
             match self.nodes[cell.node as usize].kind() {
                 NodeKind::Inner { .. } => stats.sah_cost += chance * cost.traversal,
                 NodeKind::Leaf { count, .. } => {

@@ -181,7 +181,8 @@ struct Placement {
 
 impl Placement {
     fn new(position: DMat4) -> Self {
-        let [x, y, z] = [position.x_axis, position.y_axis, position.z_axis].map(glam::DVec4::truncate);
+        let [x, y, z] =
+            [position.x_axis, position.y_axis, position.z_axis].map(glam::DVec4::truncate);
         let mirrors = x.cross(y).dot(z) < 0.0;
         let sign = if mirrors { -1.0 } else { 1.0 };
         let normal = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * sign;
