@@ -8,6 +8,7 @@ mod error;
 mod interrupt;
 mod load;
 mod output;
+mod pictures;
 mod progress;
 mod query;
 mod table;

@@ -1,0 +1,66 @@
+//! Pictures of trees, rays and measurements.
+//!
+//! Everything is drawn once, as SVG on a [`Canvas`]; a PNG is that SVG rasterised with an embedded
+//! font, so that it looks the same on a machine without fonts. Two-dimensional pictures of a tree
+//! are a [`Section`]: a plane through the boxes, in which every cell is a rectangle.
+
+mod bars;
+mod canvas;
+mod file;
+mod legend;
+mod palette;
+mod panel;
+mod projector;
+mod ray_path;
+mod section;
+mod slice;
+mod t_diagram;
+mod wireframe;
+
+pub(crate) use bars::{Bars, Series, draw_bars};
+pub(crate) use canvas::Canvas;
+pub(crate) use file::PictureFile;
+pub(crate) use ray_path::{RayPath, draw_ray_path};
+pub(crate) use section::Section;
+pub(crate) use slice::{Slice, draw_slice};
+pub(crate) use wireframe::{LineColor, Wireframe, draw_wireframe};
+
+/// A number for people: six significant digits at most, no trailing zeros, `∞` and `–` for what
+/// is not a number.
+pub(crate) fn readable(value: f64) -> String {
+    if value.is_nan() {
+        return "–".into();
+    }
+    if value.is_infinite() {
+        return if value > 0.0 { "∞".into() } else { "−∞".into() };
+    }
+    let magnitude = if value == 0.0 { 0.0 } else { value.abs().log10().floor() };
+    if !(-4.0..7.0).contains(&magnitude) {
+        return format!("{value:.4e}");
+    }
+    let decimals = (5.0 - magnitude).clamp(0.0, 9.0) as usize;
+    let text = format!("{value:.decimals$}");
+    let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+    if text == "-0" { "0".into() } else { text.into() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::readable;
+
+    #[test]
+    fn numbers_are_short_and_true() {
+        for (value, text) in [
+            (4.000_000_000_01, "4"),
+            (-0.0, "0"),
+            (0.1 + 0.2, "0.3"),
+            (1234.5678, "1234.57"),
+            (1_234_567.0, "1234567"),
+            (1e-7, "1.0000e-7"),
+            (f64::INFINITY, "∞"),
+            (f64::NAN, "–"),
+        ] {
+            assert_eq!(readable(value), text);
+        }
+    }
+}
