@@ -1,16 +1,201 @@
-//! `kdray draw`.
+//! `kdray draw`: the tree as a picture.
 
-use crate::{args::SceneArgs, cli::Globals, error::CliError, load};
+use crate::{
+    args::{BuildArgs, SceneArgs, ViewArgs},
+    build,
+    cli::Globals,
+    error::CliError,
+    interrupt, load,
+    pictures::{
+        LineColor, PictureFile, Section, Slice, Wireframe, draw_slice, draw_wireframe, readable,
+        scene_name,
+    },
+    progress::{self, Progress},
+};
+use kdray_render::{PngDepth, RenderOptions, World};
+use kdray_scene::Camera;
+use std::path::{Path, PathBuf};
 
-/// Draw the tree: its cells and its splitting planes
+/// The deepest cells drawn over a render: 2^12 are more than can be told apart.
+const MAX_WIREFRAME_DEPTH: u32 = 12;
+const WIREFRAME_DEPTH: u32 = 5;
+
+/// Draw the tree: its cells over a render, or a slice through it
+///
+/// Without --slice, the planes of the tree's upper levels are drawn as outlines over a render of
+/// the scene; what surfaces hide of them is dashed. With --slice, one plane through the scene is
+/// shown: its leaves, shaded by how many triangles they list, the splitting planes, coloured by
+/// axis, and the triangles, each as the plane cuts it.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Example: the first six levels of a tree over the scene
+  kdray draw bunny.ply -o cells.png --depth 6
+
+Example: a slice, for two ways to choose the splitting plane
+  kdray draw bunny.ply -o sah.svg --slice z=0
+  kdray draw bunny.ply -o middle.svg --slice z=0 --split middle")]
 pub(crate) struct Args {
     #[command(flatten)]
     scene: SceneArgs,
+    /// The picture: a name that ends in .svg or .png
+    #[arg(long, short, value_name = "OUT.svg|png")]
+    out: PathBuf,
+    /// Show this plane through the scene instead of a render
+    #[arg(long, value_name = "x|y|z=VALUE", allow_hyphen_values = true, value_parser = slice_plane)]
+    slice: Option<(usize, f64)>,
+    /// How many splits deep cells are drawn; without it 5 over a render (12 at most), and all of
+    /// a slice. Where the tree is not as deep, its leaves are drawn
+    #[arg(long, value_name = "N")]
+    depth: Option<u32>,
+    /// What the colours of lines over a render say
+    #[arg(long, value_name = "WHAT", default_value = "axis", conflicts_with = "slice")]
+    color: LineColor,
+    /// Rays a pixel of the render
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(1..))]
+    samples: u32,
+    #[command(flatten)]
+    view: ViewArgs,
+    #[command(flatten)]
+    build: BuildArgs,
 }
 
-/// Loads the scene.
+/// Builds the tree and draws it.
 pub(crate) fn run(args: &Args, globals: &Globals) -> Result<(), CliError> {
-    load::model(&args.scene, globals)?;
+    if let (None, Some(depth)) = (args.slice, args.depth)
+        && depth > MAX_WIREFRAME_DEPTH
+    {
+        return Err(CliError::Usage(format!(
+            "--depth {depth}: over a render, cells are drawn to a depth of {MAX_WIREFRAME_DEPTH} \
+             at most; deeper ones are shown by --slice"
+        )));
+    }
+    let file = PictureFile::create(&args.out)?;
+    let model = load::model(&args.scene, globals)?;
+    if model.triangles.is_empty() {
+        return Err(nothing_to_draw(args));
+    }
+    let world = build::world(model, &args.build, globals)?;
+    match args.slice {
+        Some(plane) => write_slice(args, globals, file, &world, plane),
+        None => write_wireframe(args, globals, file, &world),
+    }
+}
+
+fn write_slice(
+    args: &Args,
+    globals: &Globals,
+    file: PictureFile,
+    world: &World,
+    (axis, value): (usize, f64),
+) -> Result<(), CliError> {
+    let name = ["x", "y", "z"][axis];
+    let bounds = world.scene().tree().bounds();
+    let depth = args.depth.unwrap_or(u32::MAX);
+    let title = format!(
+        "{}: slice at {name} = {}, split {}{}",
+        scene_name(&args.scene),
+        readable(value),
+        args.build.split.name(),
+        args.depth.map_or(String::new(), |depth| format!(", to depth {depth}")),
+    );
+    let slice = Slice { section: Section::perpendicular(axis, value), depth, title: &title };
+    let room = [args.view.size.width as f64, args.view.size.height as f64];
+    let Some((canvas, figures)) = draw_slice(world.scene(), &slice, room) else {
+        return Err(CliError::Usage(format!(
+            "--slice {name}={value}: the scene lies between {name} = {} and {}; choose a value there",
+            bounds.min[axis], bounds.max[axis]
+        )));
+    };
+    file.write(canvas, 1.0)?;
+    let (cells, triangles) = (figures.cells, figures.triangles);
+    let out = args.out.display();
+    progress::say(globals, &format!("drew {cells} cells and {triangles} cut triangles: {out}"));
     Ok(())
+}
+
+fn write_wireframe(
+    args: &Args,
+    globals: &Globals,
+    file: PictureFile,
+    world: &World,
+) -> Result<(), CliError> {
+    let bounds = world.scene().tree().bounds();
+    let camera = args.view.camera(world.model(), bounds)?;
+    let render = render(args, globals, world, &camera)?;
+    let depth = args.depth.unwrap_or(WIREFRAME_DEPTH);
+    let title = format!(
+        "{}: the planes of the upper {depth} levels, split {}",
+        scene_name(&args.scene),
+        args.build.split.name()
+    );
+    let canvas = draw_wireframe(&Wireframe {
+        scene: world.scene(),
+        camera: &camera,
+        render: &render,
+        size: [args.view.size.width as f64, args.view.size.height as f64],
+        depth,
+        color: args.color,
+        title: &title,
+    });
+    file.write(canvas, 1.0)?;
+    progress::say(globals, &format!("drew the cells to depth {depth}: {}", args.out.display()));
+    Ok(())
+}
+
+/// The scene as the camera sees it, as the bytes of a PNG.
+fn render(
+    args: &Args,
+    globals: &Globals,
+    world: &World,
+    camera: &Camera,
+) -> Result<Vec<u8>, CliError> {
+    let lights = args.view.lights(world.model(), world.scene().tree().bounds(), camera);
+    let (width, height) = (args.view.size.width, args.view.size.height);
+    let options =
+        RenderOptions { width, height, samples: args.samples, ..RenderOptions::default() };
+    let progress = Progress::start("rendering", (width * height) as u64, "pixels", globals);
+    let _watch = interrupt::watch();
+    let picture = kdray_render::render(world, camera, &lights, &options, &|done| {
+        progress.set_fraction(done.fraction);
+        interrupt::flow()
+    })?;
+    if !picture.complete {
+        return Err(CliError::Interrupted);
+    }
+    let folder = tempfile::tempdir().map_err(|error| CliError::output(&args.out, error))?;
+    let path = folder.path().join("render.png");
+    picture.write_png(&path, PngDepth::Eight)?;
+    std::fs::read(&path).map_err(|error| CliError::output(&path, error))
+}
+
+fn nothing_to_draw(args: &Args) -> CliError {
+    let path = args.scene.scene.as_deref().unwrap_or(Path::new("-"));
+    CliError::input(path, "the scene has no triangles, so there is nothing to draw")
+}
+
+/// Reads `x=VALUE`, `y=VALUE` or `z=VALUE`.
+fn slice_plane(text: &str) -> Result<(usize, f64), String> {
+    let wrong = || "give an axis and a value, such as z=0.5".to_owned();
+    let (axis, value) = text.split_once('=').ok_or_else(wrong)?;
+    let axis = match axis.trim() {
+        "x" | "X" => 0,
+        "y" | "Y" => 1,
+        "z" | "Z" => 2,
+        _ => return Err(wrong()),
+    };
+    let [value] = crate::args::numbers::<1>(value).map_err(|_| wrong())?;
+    Ok((axis, value))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::slice_plane;
+
+    #[test]
+    fn slices_have_an_axis_and_a_finite_value() {
+        assert_eq!(slice_plane("y=-2.5"), Ok((1, -2.5)));
+        for bad in ["", "w=1", "x", "x=", "x=nan", "=1", "x=1,2"] {
+            assert!(slice_plane(bad).is_err(), "{bad}");
+        }
+    }
 }

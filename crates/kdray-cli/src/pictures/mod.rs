@@ -17,6 +17,9 @@ mod slice;
 mod t_diagram;
 mod wireframe;
 
+use crate::args::SceneArgs;
+use std::path::Path;
+
 pub(crate) use bars::{Bars, Series, draw_bars};
 pub(crate) use canvas::Canvas;
 pub(crate) use file::PictureFile;
@@ -24,6 +27,15 @@ pub(crate) use ray_path::{RayPath, draw_ray_path};
 pub(crate) use section::Section;
 pub(crate) use slice::{Slice, draw_slice};
 pub(crate) use wireframe::{LineColor, Wireframe, draw_wireframe};
+
+/// What a picture calls the scene: its file's name.
+pub(crate) fn scene_name(args: &SceneArgs) -> String {
+    match args.scene.as_deref() {
+        None => "built-in scene".into(),
+        Some(path) if path == Path::new("-") => "standard input".into(),
+        Some(path) => path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned(),
+    }
+}
 
 /// A number for people: six significant digits at most, no trailing zeros, `∞` and `–` for what
 /// is not a number.
