@@ -6,7 +6,7 @@ use clap::{Args, Parser, Subcommand};
 const EXIT_CODES: &str = "\
 Exit codes:
     0  done
-    1  the data is at fault: `validate` found a broken tree
+    1  an answer is wrong: `validate` found a broken tree, or `compare` different hits
     2  the command line is at fault
     3  an input could not be read, or was refused
     4  an output could not be written

@@ -17,6 +17,9 @@ pub(crate) enum CliError {
     /// A tree that is not what it must be.
     #[error("the tree is broken: {0}")]
     Tree(#[from] TreeError),
+    /// Two ways to answer a ray gave different answers.
+    #[error("{0}; this is a fault of kdray, please report it with the scene")]
+    Disagreement(String),
     /// Arguments that do not go together, or name what is not there.
     #[error("{0}")]
     Usage(String),
@@ -77,7 +80,7 @@ impl CliError {
     fn exit_code(&self) -> u8 {
         match self {
             Self::Stdout(error) if error.kind() == io::ErrorKind::BrokenPipe => 0,
-            Self::Tree(_) => 1,
+            Self::Tree(_) | Self::Disagreement(_) => 1,
             Self::Usage(_) | Self::Render(_) => 2,
             Self::Interrupted | Self::Build(BuildError::Cancelled) => interrupt::EXIT_CODE,
             Self::Input { .. } | Self::Load(_) => 3,

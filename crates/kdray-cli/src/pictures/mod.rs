@@ -20,7 +20,7 @@ mod wireframe;
 use crate::args::SceneArgs;
 use std::path::Path;
 
-pub(crate) use bars::{Bars, Series, draw_bars};
+pub(crate) use bars::{Bars, Series, draw_bars, three_digits};
 pub(crate) use canvas::Canvas;
 pub(crate) use file::PictureFile;
 pub(crate) use ray_path::{RayPath, draw_ray_path};

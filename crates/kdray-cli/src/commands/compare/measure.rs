@@ -1,0 +1,221 @@
+//! Asking all rays of all contenders: answers, counts and times.
+
+use super::Contender;
+use super::contender::Kind;
+use super::rays::{RaySet, RaySets};
+use crate::{cli::Globals, error::CliError, interrupt, progress::Progress};
+use kdray::{
+    Aabb, Hit, Ray, TriangleMesh,
+    primitives::Primitives,
+    traverse::{Counters, Naive},
+};
+use rayon::prelude::*;
+use std::{hint::black_box, time::Instant};
+
+/// How many triangle tests the naive answer may cost a set of rays in all.
+const NAIVE_TESTS: usize = 200_000_000;
+
+/// What a contender did with one set of rays.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Figures {
+    /// How many rays it answered; the naive one only some, spread evenly over the set.
+    pub(super) rays: usize,
+    /// Every so manieth ray was answered.
+    pub(super) stride: usize,
+    /// What it cost.
+    pub(super) counters: Counters,
+    /// The median of the rounds' times, in seconds.
+    pub(super) seconds: f64,
+    answers: Vec<Answer>,
+}
+
+/// What was found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Answer {
+    Closest(Option<Hit>),
+    Any(bool),
+}
+
+/// Fills in the figures of all contenders.
+pub(super) fn measure(
+    contenders: &mut [Contender<'_>],
+    rays: &RaySets,
+    rounds: u32,
+    threads: usize,
+    globals: &Globals,
+) -> Result<(), CliError> {
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .map_err(|error| CliError::Usage(format!("--threads {threads}: {error}")))?;
+    let steps = (rounds as usize + 1) * rays.sets.len() * contenders.len();
+    let progress = Progress::start("measuring", steps as u64, "sets of rays", globals);
+    let mut done = 0;
+    let mut step = || {
+        done += 1;
+        progress.set(done);
+        if interrupt::requested() { Err(CliError::Interrupted) } else { Ok(()) }
+    };
+    let _watch = interrupt::watch();
+    // Answers and counts first, which also warms the caches.
+    for contender in &mut *contenders {
+        for set in &rays.sets {
+            let figures = pool.install(|| answer(contender, set, rounds as usize));
+            contender.figures.push(figures);
+            step()?;
+        }
+    }
+    let mut seconds = vec![Vec::new(); contenders.len() * rays.sets.len()];
+    for _ in 0..rounds {
+        for (i, contender) in contenders.iter().enumerate() {
+            for (j, set) in rays.sets.iter().enumerate() {
+                let stride = contender.figures[j].stride;
+                let took = pool.install(|| time(contender, set, stride, threads));
+                seconds[i * rays.sets.len() + j].push(took);
+                step()?;
+            }
+        }
+    }
+    let figures = contenders.iter_mut().flat_map(|contender| &mut contender.figures);
+    for (figures, mut seconds) in figures.zip(seconds) {
+        figures.seconds = median(&mut seconds);
+    }
+    let (sets, count) = (rays.sets.len(), contenders.len());
+    let took = progress.elapsed();
+    progress.finish(&format!("measured {count} contenders with {sets} sets of rays in {took:.2?}"));
+    Ok(())
+}
+
+/// Fails if two contenders gave different answers to a ray that both were asked.
+pub(super) fn check_answers(contenders: &[Contender<'_>]) -> Result<(), CliError> {
+    let Some((last, others)) = contenders.split_last() else { return Ok(()) };
+    for other in others {
+        for (set, (expected, found)) in last.figures.iter().zip(&other.figures).enumerate() {
+            let asked = expected.answers.iter().step_by(found.stride.max(1));
+            for (i, (expected, found_answer)) in asked.zip(&found.answers).enumerate() {
+                if expected != found_answer {
+                    return Err(CliError::Disagreement(format!(
+                        "{} and {} disagree on ray {} of set {}: {found_answer:?} and {expected:?}",
+                        other.name,
+                        last.name,
+                        i * found.stride,
+                        ["primary", "shadow", "bounce"][set],
+                    )));
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The middle value; of an even number the lower one of the two. Zero of none.
+pub(super) fn median(values: &mut [f64]) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len().saturating_sub(1) / 2).copied().unwrap_or(0.0)
+}
+
+fn answer(contender: &Contender<'_>, set: &RaySet, rounds: usize) -> Figures {
+    match &contender.kind {
+        Kind::Tree { scene, .. } => {
+            let found: Vec<(Answer, Counters)> = set
+                .rays
+                .par_iter()
+                .map(|ray| {
+                    let mut counters = Counters::default();
+                    let answer = match set.any {
+                        true => Answer::Any(scene.any_hit_traced(ray, &mut counters)),
+                        false => Answer::Closest(scene.closest_hit_traced(ray, &mut counters)),
+                    };
+                    (answer, counters)
+                })
+                .collect();
+            let counters = found.iter().fold(Counters::default(), |sum, (_, c)| Counters {
+                splits: sum.splits + c.splits,
+                leaves: sum.leaves + c.leaves,
+                primitives: sum.primitives + c.primitives,
+            });
+            let answers: Vec<Answer> = found.into_iter().map(|(answer, _)| answer).collect();
+            Figures { rays: set.rays.len(), stride: 1, counters, seconds: 0.0, answers }
+        }
+        Kind::Naive(mesh) => {
+            let naive = naive(mesh);
+            let tests = set.rays.len() * mesh.count() * (rounds + 1);
+            let stride = tests.div_ceil(NAIVE_TESTS).max(1);
+            let asked: Vec<&Ray> = set.rays.iter().step_by(stride).collect();
+            let answers = asked.par_iter().map(|ray| match set.any {
+                true => Answer::Any(naive.any_hit(ray)),
+                false => Answer::Closest(naive.closest_hit(ray)),
+            });
+            let answers: Vec<Answer> = answers.collect();
+            let primitives = (answers.len() * mesh.count()) as u64;
+            let counters = Counters { primitives, ..Counters::default() };
+            Figures { rays: answers.len(), stride, counters, seconds: 0.0, answers }
+        }
+    }
+}
+
+/// Every triangle is tested with every ray that meets the box around them all (S1).
+fn naive(mesh: &TriangleMesh) -> Naive<'_, TriangleMesh, Aabb<3>> {
+    let all = (0..mesh.count() as u32).map(|id| mesh.bounds(id));
+    Naive::new(mesh, all.fold(Aabb::EMPTY, |sum, aabb| sum.union(&aabb)))
+}
+
+/// How long the set takes, in seconds.
+fn time(contender: &Contender<'_>, set: &RaySet, stride: usize, threads: usize) -> f64 {
+    let asked: Vec<Ray> = set.rays.iter().step_by(stride.max(1)).copied().collect();
+    match &contender.kind {
+        Kind::Tree { scene, .. } if set.any => each(&asked, threads, |ray| scene.any_hit(ray)),
+        Kind::Tree { scene, .. } => each(&asked, threads, |ray| scene.closest_hit(ray)),
+        Kind::Naive(mesh) => {
+            let naive = naive(mesh);
+            match set.any {
+                true => each(&asked, threads, |ray| naive.any_hit(ray)),
+                false => each(&asked, threads, |ray| naive.closest_hit(ray)),
+            }
+        }
+    }
+}
+
+fn each<A>(rays: &[Ray], threads: usize, ask: impl Fn(&Ray) -> A + Sync) -> f64 {
+    let start = Instant::now();
+    if threads == 1 {
+        for ray in rays {
+            black_box(ask(ray));
+        }
+    } else {
+        rays.par_iter().with_min_len(256).for_each(|ray| {
+            black_box(ask(ray));
+        });
+    }
+    start.elapsed().as_secs_f64()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn medians_are_values_that_were_measured() {
+        assert_eq!(median(&mut [3.0, 1.0, 2.0]), 2.0);
+        assert_eq!(median(&mut [4.0, 1.0, 3.0, 2.0]), 2.0);
+        assert_eq!(median(&mut []), 0.0);
+    }
+
+    fn contender(name: &'static str, stride: usize, answers: Vec<Answer>) -> Contender<'static> {
+        let kind = Kind::Naive(Box::leak(Box::default()));
+        let figures = Figures { rays: answers.len(), stride, answers, ..Figures::default() };
+        Contender { name, kind, figures: vec![figures] }
+    }
+
+    #[test]
+    fn a_different_answer_is_an_error_that_names_the_ray() {
+        let all = [true, false, true, true, false].map(Answer::Any).to_vec();
+        let some = vec![all[0], all[2], all[4]];
+        let same = [contender("naive", 2, some), contender("sah", 1, all.clone())];
+        assert!(check_answers(&same).is_ok());
+        let wrong = [true, true, true].map(Answer::Any).to_vec();
+        let different = [contender("naive", 2, wrong), contender("sah", 1, all)];
+        let error = check_answers(&different).unwrap_err().to_string();
+        assert!(error.contains("naive and sah disagree on ray 4 of set primary"), "{error}");
+    }
+}
