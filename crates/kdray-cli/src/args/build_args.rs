@@ -16,7 +16,7 @@ pub(crate) struct BuildArgs {
 /// Where the build stops; all that remains of [`BuildArgs`] when every strategy is built.
 #[derive(Clone, Debug, clap::Args)]
 pub(crate) struct LimitArgs {
-    /// Do not cut nodes of this many triangles or fewer
+    /// Do not cut nodes of this many triangles or fewer; without it 1 for sah, 8 for the others
     #[arg(long, value_name = "N")]
     pub(crate) leaf_size: Option<usize>,
     /// Do not cut deeper than this; without it 8 + 1.3 log2 of the number of triangles
@@ -69,9 +69,9 @@ impl BuildArgs {
 impl LimitArgs {
     /// What the library is asked for with the given strategy.
     pub(crate) fn options(&self, strategy: Strategy) -> BuildOptions {
-        let default = BuildOptions::default();
+        let default = BuildOptions::for_strategy(strategy);
         let leaf_size = self.leaf_size.unwrap_or(default.leaf_size);
-        BuildOptions { strategy, leaf_size, max_depth: self.max_depth, ..default }
+        BuildOptions { leaf_size, max_depth: self.max_depth, ..default }
     }
 }
 

@@ -149,7 +149,7 @@ fn render(
     world: &World,
     camera: &Camera,
 ) -> Result<Vec<u8>, CliError> {
-    let lights = args.view.lights(world.model(), world.scene().tree().bounds(), camera);
+    let lights = args.view.lights(world.model(), world.scene().tree().bounds());
     let (width, height) = (args.view.size.width, args.view.size.height);
     let options =
         RenderOptions { width, height, samples: args.samples, ..RenderOptions::default() };

@@ -65,8 +65,7 @@ impl Bars {
         canvas.text([x, y + 36.0], Anchor::Start, 12.0, self.note);
         let all = self.series.iter().flat_map(|series| series.values.iter().flatten());
         let largest = all.fold(0.0_f64, |m, &value| m.max(value));
-        let scale =
-            if largest > 0.0 { (WIDTH - LABELS - VALUES - 16.0) / largest } else { 0.0 };
+        let scale = if largest > 0.0 { (WIDTH - LABELS - VALUES - 16.0) / largest } else { 0.0 };
         let left = x + LABELS;
         let mut top = y + HEAD;
         let bottom = y + self.height(names.len()) - 24.0;
@@ -74,7 +73,13 @@ impl Bars {
             let middle = top + self.series.len() as f64 * BAR / 2.0;
             canvas.text([left - 8.0, middle + 4.5], Anchor::End, 13.0, name);
             for (series, color) in self.series.iter().zip(COLORS) {
-                draw_bar(canvas, [left, top], series.values.get(i).copied().flatten(), scale, color);
+                draw_bar(
+                    canvas,
+                    [left, top],
+                    series.values.get(i).copied().flatten(),
+                    scale,
+                    color,
+                );
                 top += BAR;
             }
             top += GAP;
@@ -116,8 +121,7 @@ mod tests {
     #[test]
     fn bars_are_as_long_as_their_values() {
         let values = vec![Some(2.0), None, Some(4.0)];
-        let chart =
-            Bars { title: "x".into(), note: "", series: vec![Series { name: "", values }] };
+        let chart = Bars { title: "x".into(), note: "", series: vec![Series { name: "", values }] };
         let svg = draw_bars("t", "s", &["a", "b", "c"], &[chart]).into_svg();
         let widths: Vec<f64> = svg
             .lines()
@@ -133,7 +137,8 @@ mod tests {
 
     #[test]
     fn values_have_three_digits() {
-        for (value, text) in [(0.0, "0.00"), (1234.5, "1234"), (0.012345, "0.0123"), (9.87, "9.87")] {
+        for (value, text) in [(0.0, "0.00"), (1234.5, "1234"), (0.012345, "0.0123"), (9.87, "9.87")]
+        {
             assert_eq!(three_digits(value), text);
         }
     }

@@ -118,8 +118,8 @@ pub(crate) fn label_on_lines(at: Point, anchor: Anchor, size: f64, text: &str) -
 
 /// How wide a text is at most.
 pub(crate) fn text_width(size: f64, text: &str) -> f64 {
-    // Letters and digits of the embedded font are 0.6 of its size wide on average.
-    0.63 * size * text.chars().count() as f64
+    // Letters and digits of the embedded font are less than 0.6 of its size wide on average.
+    0.6 * size * text.chars().count() as f64
 }
 
 /// A rectangle from its upper left corner.
@@ -165,7 +165,11 @@ mod tests {
     fn a_canvas_is_the_same_file_every_time() {
         let draw = || {
             let mut canvas = Canvas::new(20.0, 10.0, "a < b & c");
-            canvas.add(line([0.0, 0.001], [1.0 / 3.0, 5.0], Stroke::new("#000", 1.0).dashed("2 1")));
+            canvas.add(line(
+                [0.0, 0.001],
+                [1.0 / 3.0, 5.0],
+                Stroke::new("#000", 1.0).dashed("2 1"),
+            ));
             canvas.text([1.0, 2.0], Anchor::End, 12.0, "t < 4");
             canvas.into_svg()
         };

@@ -37,6 +37,11 @@ pub(crate) fn scene_name(args: &SceneArgs) -> String {
     }
 }
 
+/// A number of things, in the right form.
+pub(crate) fn counted(count: usize, one: &str, many: &str) -> String {
+    format!("{count} {}", if count == 1 { one } else { many })
+}
+
 /// A number for people: six significant digits at most, no trailing zeros, `∞` and `–` for what
 /// is not a number.
 pub(crate) fn readable(value: f64) -> String {
@@ -52,7 +57,8 @@ pub(crate) fn readable(value: f64) -> String {
     }
     let decimals = (5.0 - magnitude).clamp(0.0, 9.0) as usize;
     let text = format!("{value:.decimals$}");
-    let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+    let text =
+        if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
     if text == "-0" { "0".into() } else { text.into() }
 }
 

@@ -17,14 +17,8 @@ pub(crate) const AXES: [&str; 3] = [VERMILION, GREEN, BLUE];
 pub(crate) const AXIS_NAMES: [&str; 3] = ["x", "y", "z"];
 
 /// From which number of primitives on a leaf has which shade.
-const SHADES: [(usize, &str); 6] = [
-    (0, WHITE),
-    (1, "#efeaf5"),
-    (2, "#d9cfe8"),
-    (4, "#bda9d6"),
-    (8, "#9d80c0"),
-    (16, "#7a569f"),
-];
+const SHADES: [(usize, &str); 6] =
+    [(0, WHITE), (1, "#efeaf5"), (2, "#d9cfe8"), (4, "#bda9d6"), (8, "#9d80c0"), (16, "#7a569f")];
 
 /// The colour of a leaf with so many primitives.
 pub(crate) fn leaf_shade(primitives: usize) -> &'static str {
@@ -75,7 +69,10 @@ mod tests {
 
     #[test]
     fn depths_run_from_yellow_to_purple() {
-        assert_eq!((depth_color(0, 4).as_str(), depth_color(4, 4).as_str()), ("#fde725", "#440154"));
+        assert_eq!(
+            (depth_color(0, 4).as_str(), depth_color(4, 4).as_str()),
+            ("#fde725", "#440154")
+        );
         assert_eq!(depth_color(0, 0), "#fde725");
     }
 }

@@ -50,7 +50,9 @@ impl Panel {
     pub(crate) fn fit(at: Point, room: Point, shown: Rect) -> Self {
         let [width, height] = shown.size();
         // What has no extent is given some.
-        let least = 1e-3 * width.max(height).max(f64::MIN_POSITIVE);
+        let corners = [shown.across, shown.up].concat();
+        let far = corners.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        let least = (1e-3 * width.max(height)).max(1e-6 * far).max(1e-30);
         let shown = if width.min(height) < least {
             let widen = |[low, high]: [f64; 2]| {
                 if high - low < least { [low - least, high + least] } else { [low, high] }

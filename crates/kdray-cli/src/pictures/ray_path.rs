@@ -1,13 +1,11 @@
 //! The way of one ray through the tree (S11): the section that holds the ray, and the nodes over t.
 
-use super::canvas::{
-    Anchor, Canvas, Point, Stroke, label_on_lines, line, lines, text_width,
-};
+use super::canvas::{Anchor, Canvas, Point, Stroke, label_on_lines, line, lines, text_width};
 use super::legend::{self, Entry};
 use super::panel::{Panel, Rect};
 use super::slice::{across_name, cut_triangles, frame};
 use super::t_diagram::{self, Bar, Fate};
-use super::{Section, palette, readable};
+use super::{Section, counted, palette, readable};
 use kdray::tree::{Cell, NodeKind};
 use kdray::{Hit, Ray, Scene, traverse::Step};
 use std::collections::{HashMap, HashSet};
@@ -44,18 +42,29 @@ struct PathSplit {
 }
 
 const WIDTH: f64 = 1120.0;
-const PANEL: [f64; 2] = [430.0, 430.0];
 const TOP: f64 = 84.0;
+/// The room for scale and numbers to the left of a panel.
+const LEFT: f64 = 96.0;
+/// The room for a panel that has another beside it, and for one that has not.
+const ROOM: [[f64; 2]; 2] = [[430.0, 430.0], [990.0, 520.0]];
+
+/// A part of the section, and the nodes over the t that is seen there.
+struct View {
+    heading: &'static str,
+    panel: Panel,
+    t: [f64; 2],
+}
 
 /// Draws the way of the ray; `None` if it misses the root's box.
 pub(crate) fn draw_ray_path(it: &RayPath<'_>) -> Option<Canvas> {
     let section = Section::through(it.ray);
     let path = Path::new(it.scene, it.steps);
     let root = section.rect(it.scene.tree().bounds())?;
-    let overview = overview_panel(&section, it.ray, &path, root)?;
-    let detail = detail_panel(&section, &path)?;
-    let deepest = path.bars().iter().map(|bar| bar.depth).max().unwrap_or(0);
-    let diagram_top = TOP + overview.size[1].max(detail.size[1]) + 64.0;
+    let views = views(it, &section, &path, root)?;
+    let bars = path.bars();
+    let deepest = bars.iter().map(|bar| bar.depth).max().unwrap_or(0);
+    let highest = views.iter().map(|view| view.panel.size[1]).fold(0.0, f64::max);
+    let diagram_top = TOP + highest + 64.0;
     let legend = legend(&section, &path, it.hit);
     let legend_top = diagram_top + t_diagram::height(deepest);
     let height = legend_top + legend::height(&legend, WIDTH - 48.0) + 12.0;
@@ -64,15 +73,41 @@ pub(crate) fn draw_ray_path(it: &RayPath<'_>) -> Option<Canvas> {
     canvas.text([24.0, 30.0], Anchor::Start, 16.0, it.title);
     canvas.text([24.0, 52.0], Anchor::Start, 13.0, &path.summary(it.hit));
     let triangles = cut_triangles(it.scene, &section);
-    for (panel, heading) in [(&overview, "the whole tree"), (&detail, "where the search ends")] {
+    let hit = it.hit.map(|hit| hit.t);
+    let room = WIDTH / views.len() as f64;
+    for (column, View { heading, panel, t }) in views.iter().enumerate() {
         canvas.text([panel.at[0], panel.at[1] - 8.0], Anchor::Start, 13.0, heading);
         panel.show(&mut canvas, content(it, &section, &path, panel, &root, &triangles));
         panel.scales(&mut canvas, &across_name(&section), palette::AXIS_NAMES[section.up()]);
+        let at = [24.0 + column as f64 * room, diagram_top];
+        t_diagram::draw(&mut canvas, at, room - 48.0, &bars, *t, hit);
     }
-    let hit = it.hit.map(|hit| hit.t);
-    t_diagram::draw(&mut canvas, [24.0, diagram_top], WIDTH - 60.0, &path.bars(), hit);
     legend::draw(&mut canvas, [24.0, legend_top], WIDTH - 48.0, &legend);
     Some(canvas)
+}
+
+/// The whole tree, and if the search ends in a small leaf, what is around that.
+fn views(it: &RayPath<'_>, section: &Section, path: &Path, root: Rect) -> Option<Vec<View>> {
+    let whole_t =
+        path.bars().iter().map(|bar| bar.t).reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])?;
+    let shown = overview_rect(section, it.ray, root);
+    let view = |heading, column: f64, room, shown, t| {
+        let panel = Panel::fit([LEFT + column * WIDTH / 2.0, TOP], room, shown);
+        View { heading, panel, t }
+    };
+    let detail = detail_rect(section, path).filter(|rect| {
+        let share = |side: usize| rect.size()[side] / root.size()[side].max(f64::MIN_POSITIVE);
+        share(0).max(share(1)) < 0.5
+    });
+    let seen = detail.and_then(|rect| Some((rect, visible_t(section, it.ray, &rect)?)));
+    let Some((rect, [from, to])) = seen else {
+        return Some(vec![view("the whole tree", 0.0, ROOM[1], shown, whole_t)]);
+    };
+    let t = [from.max(whole_t[0]), to.min(whole_t[1])];
+    Some(vec![
+        view("the whole tree", 0.0, ROOM[0], shown, whole_t),
+        view("where the search ends", 1.0, ROOM[0], rect, t),
+    ])
 }
 
 impl Path {
@@ -133,11 +168,11 @@ impl Path {
             None => "no hit".to_owned(),
         };
         format!(
-            "{} inner nodes and {} leaves visited, {} nodes dropped from the stack, {} triangles tested: {end}",
-            self.splits.len(),
-            self.visited.len(),
-            self.dropped.len(),
-            self.tested.len()
+            "{} and {} visited, {} dropped from the stack, {} tested: {end}",
+            counted(self.splits.len(), "inner node", "inner nodes"),
+            counted(self.visited.len(), "leaf", "leaves"),
+            counted(self.dropped.len(), "node", "nodes"),
+            counted(self.tested.len(), "triangle", "triangles"),
         )
     }
 }
@@ -162,9 +197,9 @@ fn cells_of(scene: &Scene, steps: &[Step]) -> HashMap<u32, Cell<3>> {
 }
 
 /// The root's box, and a little of the ray before and behind it.
-fn overview_panel(section: &Section, ray: &Ray, path: &Path, root: Rect) -> Option<Panel> {
+fn overview_rect(section: &Section, ray: &Ray, root: Rect) -> Rect {
     let [width, height] = root.size();
-    let mut shown = root.grown(0.1 * width.max(height));
+    let shown = root.grown(0.1 * width.max(height));
     // The observer is shown too if that does not make the box small.
     let eye = section.place(ray.origin);
     let with_eye = Rect {
@@ -173,20 +208,19 @@ fn overview_panel(section: &Section, ray: &Ray, path: &Path, root: Rect) -> Opti
     };
     let growth = |side: usize| with_eye.size()[side] / shown.size()[side].max(f64::MIN_POSITIVE);
     if with_eye != shown && growth(0) <= 2.2 && growth(1) <= 2.2 {
-        shown = with_eye.grown(0.04 * width.max(height));
+        return with_eye.grown(0.08 * width.max(height));
     }
-    (!path.visited.is_empty() || !path.splits.is_empty())
-        .then(|| Panel::fit([96.0, TOP], PANEL, shown))
+    shown
 }
 
 /// The leaf in which the search ends, and what is around it.
-fn detail_panel(section: &Section, path: &Path) -> Option<Panel> {
+fn detail_rect(section: &Section, path: &Path) -> Option<Rect> {
     let (cell, _) = path.visited.last()?;
     let rect = section.rect(&cell.bounds)?;
     let [width, height] = rect.size();
     // A leaf may be long and thin: no more than ten times its thickness is around it.
     let reach = 1.2 * width.max(height).min(10.0 * width.min(height)).max(0.1 * width.max(height));
-    Some(Panel::fit([96.0 + PANEL[0] + 140.0, TOP], PANEL, square(&rect.grown(reach))))
+    Some(square(&rect.grown(reach)))
 }
 
 /// The smallest square around a rectangle.
@@ -269,7 +303,7 @@ fn marks_along_ray(
     let on_sheet = |t: f64| panel.place(section.place(it.ray.at(t)));
     let Some([from, to]) = visible_t(section, it.ray, &shown) else { return Vec::new() };
     let end = it.hit.map_or(to, |hit| hit.t.min(to));
-    let mut marks = Vec::new();
+    let (mut marks, mut marks_text) = (Vec::new(), Vec::new());
     marks.push(line(on_sheet(from), on_sheet(end), Stroke::new(palette::BLACK, 1.8)));
     if end < to {
         let beyond = Stroke::new(palette::BLACK, 1.2).dashed("4 4").faint(0.7);
@@ -290,23 +324,26 @@ fn marks_along_ray(
         let at = on_sheet(t);
         marks.push(line(offset(at, -4.0), offset(at, 4.0), Stroke::new(palette::BLACK, 1.4)));
     }
-    let mut boxes = Vec::new();
+    let mut taken = Vec::new();
+    let mut add_label = |t: f64, sides: [f64; 2], text: &str| {
+        let label = sides.into_iter().find_map(|side| {
+            let at = offset(on_sheet(t), 16.0 * side);
+            placed_label(panel, at, normal[0] * side, text, &mut taken)
+        });
+        marks_text.extend(label);
+    };
     if let Some(hit) = it.hit.filter(|hit| (from..=to).contains(&hit.t)) {
-        let at = on_sheet(hit.t);
-        marks.push(legend::dot(at, 5.5, palette::VERMILION).into());
-        let text = format!("hit, t = {}", readable(hit.t));
-        marks.extend(placed_label(panel, offset(at, -18.0), -normal[0], &text, &mut boxes));
+        marks.push(legend::dot(on_sheet(hit.t), 5.5, palette::VERMILION).into());
+        add_label(hit.t, [-1.2, 1.2], &format!("hit, t = {}", readable(hit.t)));
     }
     if it.ray.interval.t_min <= 0.0 && from <= 0.0 {
-        let at = on_sheet(0.0);
-        marks.push(legend::dot(at, 5.0, palette::BLACK).into());
-        marks.extend(placed_label(panel, offset(at, -16.0), -normal[0], "E", &mut boxes));
+        marks.push(legend::dot(on_sheet(0.0), 5.0, palette::BLACK).into());
+        add_label(0.0, [-1.0, 1.0], "E");
     }
     for &t in &ts {
-        let at = offset(on_sheet(t), 16.0);
-        let text = format!("t = {}", readable(t));
-        marks.extend(placed_label(panel, at, normal[0], &text, &mut boxes));
+        add_label(t, [1.0, -1.0], &format!("t = {}", readable(t)));
     }
+    marks.extend(marks_text);
     marks
 }
 

@@ -34,10 +34,15 @@ pub(super) fn height(depth: u32) -> f64 {
     f64::from(depth + 1) * ROW + 62.0
 }
 
-/// Draws the diagram from its upper left corner.
-pub(super) fn draw(canvas: &mut Canvas, at: Point, width: f64, bars: &[Bar], hit: Option<f64>) {
-    let from = bars.iter().fold(f64::INFINITY, |m, bar| m.min(bar.t[0]));
-    let to = bars.iter().fold(f64::NEG_INFINITY, |m, bar| m.max(bar.t[1]));
+/// Draws the diagram for `from` to `to` in t from its upper left corner.
+pub(super) fn draw(
+    canvas: &mut Canvas,
+    at: Point,
+    width: f64,
+    bars: &[Bar],
+    [from, to]: [f64; 2],
+    hit: Option<f64>,
+) {
     let depth = bars.iter().map(|bar| bar.depth).max().unwrap_or(0);
     let (left, right, top) = (at[0] + LEFT, at[0] + width, at[1] + 24.0);
     let extent = if to > from { to - from } else { 1.0 };
@@ -51,12 +56,11 @@ pub(super) fn draw(canvas: &mut Canvas, at: Point, width: f64, bars: &[Bar], hit
     }
     let middle = [at[0] + 12.0, (top + bottom) / 2.0];
     let turn = format!("rotate(-90 {} {})", middle[0], middle[1]);
-    canvas.add(
-        super::canvas::label(middle, Anchor::Middle, 12.0, "depth").set("transform", turn),
-    );
-    for bar in bars {
+    canvas.add(super::canvas::label(middle, Anchor::Middle, 12.0, "depth").set("transform", turn));
+    for bar in bars.iter().filter(|bar| bar.t[0] <= to && bar.t[1] >= from) {
+        let bar = Bar { t: bar.t.map(|t| t.clamp(from, to)), ..*bar };
         let y = top + f64::from(bar.depth) * ROW;
-        draw_bar(canvas, bar, y, place);
+        draw_bar(canvas, &bar, y, place);
     }
     let grey = Stroke::new(palette::GREY, 1.0);
     canvas.add(line([left, bottom], [right, bottom], grey));
@@ -65,7 +69,7 @@ pub(super) fn draw(canvas: &mut Canvas, at: Point, width: f64, bars: &[Bar], hit
         canvas.text([place(t), bottom + 18.0], Anchor::Middle, 12.0, &readable(t));
     }
     canvas.text([(left + right) / 2.0, bottom + 34.0], Anchor::Middle, 13.0, "t");
-    if let Some(t) = hit {
+    if let Some(t) = hit.filter(|t| (from..=to).contains(t)) {
         let stroke = Stroke::new(palette::BLACK, 1.6).dashed("4 3");
         canvas.add(line([place(t), top - 4.0], [place(t), bottom], stroke));
     }

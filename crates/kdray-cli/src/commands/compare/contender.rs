@@ -3,7 +3,7 @@
 use super::Args;
 use super::measure::Figures;
 use crate::{args::Split, cli::Globals, error::CliError, interrupt, progress};
-use kdray::{Scene, TriangleMesh, TreeStats};
+use kdray::{Scene, TreeStats, TriangleMesh};
 use std::time::{Duration, Instant};
 
 /// Builds that took less than this are repeated, so that their time can be trusted.

@@ -13,11 +13,13 @@ use rayon::prelude::*;
 use std::{hint::black_box, time::Instant};
 
 /// How many triangle tests the naive answer may cost a set of rays in all.
-const NAIVE_TESTS: usize = 200_000_000;
+const NAIVE_TESTS: usize = 60_000_000;
 
 /// What a contender did with one set of rays.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Figures {
+    /// What the set is called.
+    pub(super) set: &'static str,
     /// How many rays it answered; the naive one only some, spread evenly over the set.
     pub(super) rays: usize,
     /// Every so manieth ray was answered.
@@ -90,8 +92,8 @@ pub(super) fn measure(
 pub(super) fn check_answers(contenders: &[Contender<'_>]) -> Result<(), CliError> {
     let Some((last, others)) = contenders.split_last() else { return Ok(()) };
     for other in others {
-        for (set, (expected, found)) in last.figures.iter().zip(&other.figures).enumerate() {
-            let asked = expected.answers.iter().step_by(found.stride.max(1));
+        for (all, found) in last.figures.iter().zip(&other.figures) {
+            let asked = all.answers.iter().step_by(found.stride.max(1));
             for (i, (expected, found_answer)) in asked.zip(&found.answers).enumerate() {
                 if expected != found_answer {
                     return Err(CliError::Disagreement(format!(
@@ -99,7 +101,7 @@ pub(super) fn check_answers(contenders: &[Contender<'_>]) -> Result<(), CliError
                         other.name,
                         last.name,
                         i * found.stride,
-                        ["primary", "shadow", "bounce"][set],
+                        all.set,
                     )));
                 }
             }
@@ -135,7 +137,14 @@ fn answer(contender: &Contender<'_>, set: &RaySet, rounds: usize) -> Figures {
                 primitives: sum.primitives + c.primitives,
             });
             let answers: Vec<Answer> = found.into_iter().map(|(answer, _)| answer).collect();
-            Figures { rays: set.rays.len(), stride: 1, counters, seconds: 0.0, answers }
+            Figures {
+                set: set.name,
+                rays: set.rays.len(),
+                stride: 1,
+                counters,
+                seconds: 0.0,
+                answers,
+            }
         }
         Kind::Naive(mesh) => {
             let naive = naive(mesh);
@@ -149,7 +158,7 @@ fn answer(contender: &Contender<'_>, set: &RaySet, rounds: usize) -> Figures {
             let answers: Vec<Answer> = answers.collect();
             let primitives = (answers.len() * mesh.count()) as u64;
             let counters = Counters { primitives, ..Counters::default() };
-            Figures { rays: answers.len(), stride, counters, seconds: 0.0, answers }
+            Figures { set: set.name, rays: answers.len(), stride, counters, seconds: 0.0, answers }
         }
     }
 }
@@ -203,7 +212,8 @@ mod tests {
 
     fn contender(name: &'static str, stride: usize, answers: Vec<Answer>) -> Contender<'static> {
         let kind = Kind::Naive(Box::leak(Box::default()));
-        let figures = Figures { rays: answers.len(), stride, answers, ..Figures::default() };
+        let rays = answers.len();
+        let figures = Figures { set: "primary", rays, stride, answers, ..Figures::default() };
         Contender { name, kind, figures: vec![figures] }
     }
 

@@ -1,6 +1,6 @@
 //! The comparison as bar charts.
 
-use super::report::{Entry, RayEntry, Report, TreeEntry};
+use super::report::{PickSet, RayEntry, Report, TreeEntry};
 use crate::pictures::{Bars, Canvas, Series, draw_bars};
 
 /// Draws a chart for each figure that matters.
@@ -19,7 +19,7 @@ pub(super) fn draw(report: &Report, scene: &str) -> Canvas {
         Bars { title: title.to_owned(), note, series: vec![Series { name: "", values }] }
     };
     let rays = |title: &str, note, value: fn(&RayEntry) -> Option<f64>| {
-        let sets: [(&'static str, fn(&Entry) -> &RayEntry); 3] = [
+        let sets: [(&'static str, PickSet); 3] = [
             ("primary rays", |entry| &entry.primary),
             ("shadow rays", |entry| &entry.shadow),
             ("bounce rays", |entry| &entry.bounce),

@@ -4,7 +4,7 @@ use super::Args;
 use crate::error::CliError;
 use glam::DVec3;
 use kdray::{Aabb, Hit, Ray, Scene, Side};
-use kdray_render::{RenderError, View};
+use kdray_render::{RenderError, View, default_lights};
 use kdray_scene::{Light, Model};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -42,7 +42,7 @@ impl RaySets {
         let empty = Aabb::EMPTY;
         let bounds = scene.map_or(&empty, |scene| scene.tree().bounds());
         let camera = args.view.camera(model, bounds)?;
-        let lights = args.view.lights(model, bounds, &camera);
+        let lights = args.view.lights(model, bounds);
         let view = View::new(&camera, args.view.aspect()).map_err(RenderError::from)?;
         let grid = grid(args.rays, args.view.aspect());
         let primary = primary(&view, grid);
@@ -50,13 +50,17 @@ impl RaySets {
             Some(scene) => primary.iter().filter_map(|ray| Place::of(scene, ray)).collect(),
             None => Vec::new(),
         };
-        // Lights of the command line come first: they were asked for.
-        let light = lights.get(model.lights.len()).or(lights.first());
-        let shadow = light.map_or(Vec::new(), |light| shadow(&places, light));
+        // A light of the command line comes first: it was asked for.
+        let light = lights.get(model.lights.len()).or(lights.first()).cloned();
+        let light = light.or_else(|| default_lights(&camera).pop());
+        let shadow = light.map_or(Vec::new(), |light| shadow(&places, &light));
         let bounce = bounce(&places);
         let set = |name, any, rays| RaySet { name, any, rays };
-        let sets =
-            [set("primary", false, primary), set("shadow", true, shadow), set("bounce", false, bounce)];
+        let sets = [
+            set("primary", false, primary),
+            set("shadow", true, shadow),
+            set("bounce", false, bounce),
+        ];
         Ok(Self { sets, grid })
     }
 }

@@ -1,9 +1,9 @@
 //! The figures of the comparison, as a table and as JSON.
 
+use super::Args;
 use super::contender::{Contender, Kind};
 use super::measure::Figures;
 use super::rays::RaySets;
-use super::Args;
 use crate::table::columns;
 use kdray::TriangleMesh;
 use serde::Serialize;
@@ -31,6 +31,9 @@ pub(super) struct Entry {
     pub(super) shadow: RayEntry,
     pub(super) bounce: RayEntry,
 }
+
+/// One set of rays of a contender.
+pub(super) type PickSet = fn(&Entry) -> &RayEntry;
 
 /// What a tree is like.
 #[derive(Debug, Serialize)]
@@ -81,7 +84,8 @@ impl Report {
         let [width, height] = self.primary_grid;
         let (threads, rounds) = (self.threads, self.rounds);
         let counts: Vec<String> = self.contenders.last().map_or(Vec::new(), |entry| {
-            let sets = [("primary", &entry.primary), ("shadow", &entry.shadow), ("bounce", &entry.bounce)];
+            let sets =
+                [("primary", &entry.primary), ("shadow", &entry.shadow), ("bounce", &entry.bounce)];
             sets.iter().map(|(name, set)| format!("{} {name}", set.rays)).collect()
         });
         let mut text = format!(
@@ -115,14 +119,14 @@ impl Report {
 
     fn rows(&self) -> Vec<Vec<String>> {
         let names = self.contenders.iter().map(|entry| entry.name.to_owned());
-        let mut rows: Vec<Vec<String>> = vec![std::iter::once(String::new()).chain(names).collect()];
+        let mut rows: Vec<Vec<String>> =
+            vec![std::iter::once(String::new()).chain(names).collect()];
         let mut row = |name: &str, cell: &dyn Fn(&Entry) -> Option<String>| {
             let cells = self.contenders.iter().map(|it| cell(it).unwrap_or("–".to_owned()));
             rows.push(std::iter::once(name.to_owned()).chain(cells).collect());
         };
-        let tree = |show: fn(&TreeEntry) -> String| {
-            move |entry: &Entry| entry.tree.as_ref().map(show)
-        };
+        let tree =
+            |show: fn(&TreeEntry) -> String| move |entry: &Entry| entry.tree.as_ref().map(show);
         row("build, s", &tree(|it| format!("{:.3}", it.build_seconds)));
         row("nodes", &tree(|it| it.nodes.to_string()));
         row("leaves", &tree(|it| it.leaves.to_string()));
@@ -132,7 +136,7 @@ impl Report {
         row("references per triangle", &tree(|it| format!("{:.2}", it.references_per_triangle)));
         row("SAH cost", &tree(|it| format!("{:.2}", it.sah_cost)));
         row("bytes per triangle", &tree(|it| format!("{:.1}", it.bytes_per_triangle)));
-        let sets: [(&str, fn(&Entry) -> &RayEntry); 3] = [
+        let sets: [(&str, PickSet); 3] = [
             ("primary", |entry| &entry.primary),
             ("shadow", |entry| &entry.shadow),
             ("bounce", |entry| &entry.bounce),

@@ -1,6 +1,9 @@
 //! The steps of a ray as a table and as JSON.
 
-use crate::{pictures::readable, table::columns};
+use crate::{
+    pictures::{counted, readable},
+    table::columns,
+};
 use kdray::{
     Hit, Ray, Scene, Side,
     traverse::{SplitStep, Step, TraversalCase},
@@ -32,7 +35,8 @@ pub(super) fn text(scene: &Scene, ray: &Ray, steps: &[Step], hit: Option<Hit>) -
     match steps.first() {
         Some(Step::Root(Some(interval))) => {
             let [t_near, t_far] = [interval.t_min, interval.t_max].map(readable);
-            text += &format!("       t_near = {t_near} ≤ t_far = {t_far}: the ray meets the box\n\n");
+            text +=
+                &format!("       t_near = {t_near} ≤ t_far = {t_far}: the ray meets the box\n\n");
         }
         _ => return text + "       the ray misses the box\nno hit\n",
     }
@@ -54,7 +58,8 @@ pub(super) fn text(scene: &Scene, ray: &Ray, steps: &[Step], hit: Option<Hit>) -
 }
 
 fn rows(steps: &[Step]) -> Vec<Vec<String>> {
-    let headings = ["step", "node", "plane", "t_near", "t_split", "t_far", "near", "far", "waiting"];
+    let headings =
+        ["step", "node", "plane", "t_near", "t_split", "t_far", "near", "far", "waiting"];
     let mut rows: Vec<Vec<String>> =
         vec![headings.iter().map(|&heading| heading.to_owned()).collect()];
     for step in steps {
@@ -62,7 +67,7 @@ fn rows(steps: &[Step]) -> Vec<Vec<String>> {
             Step::Root(_) => {}
             Step::Split(it) => rows.push(split_row(it)),
             Step::Leaf(it) => rows.push(row(
-                &format!("leaf, {} triangles", it.primitives),
+                &format!("leaf, {}", counted(it.primitives, "triangle", "triangles")),
                 [it.node.to_string(), String::new(), readable(it.t_near), String::new()],
                 [readable(it.t_far), String::new(), String::new(), it.stack_depth.to_string()],
             )),
