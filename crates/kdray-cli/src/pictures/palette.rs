@@ -10,6 +10,9 @@ pub(crate) const GREEN: &str = "#009e73";
 pub(crate) const BLUE: &str = "#0072b2";
 pub(crate) const VERMILION: &str = "#d55e00";
 
+/// A leaf that a ray visits.
+pub(crate) const VISITED: &str = "#fbd78f";
+
 /// The colours of the axes x, y and z, and so of the planes perpendicular to them.
 pub(crate) const AXES: [&str; 3] = [VERMILION, GREEN, BLUE];
 

@@ -243,7 +243,7 @@ fn content(
 ) -> Group {
     let mut group = Group::new();
     for (cells, class, fill) in
-        [(&path.dropped, "dropped", palette::PALE), (&path.visited, "visited", "#fbe3b0")]
+        [(&path.dropped, "dropped", palette::PALE), (&path.visited, "visited", palette::VISITED)]
     {
         for (cell, _) in cells {
             if let Some(rect) = section.rect(&cell.bounds) {
@@ -398,7 +398,7 @@ fn legend(section: &Section, path: &Path, hit: Option<Hit>) -> Vec<Vec<Entry>> {
         let text = format!("split perpendicular to {}", palette::AXIS_NAMES[axis]);
         Entry::line(palette::AXES[axis], 2.4, text)
     });
-    let mut cells = vec![Entry::area("#fbe3b0", "leaf visited")];
+    let mut cells = vec![Entry::area(palette::VISITED, "leaf visited")];
     if !path.dropped.is_empty() {
         cells.push(Entry::area(palette::PALE, "on the stack, dropped after the hit"));
     }

@@ -5,7 +5,7 @@ use super::panel::ticks;
 use super::{palette, readable};
 
 const ROW: f64 = 15.0;
-const LEFT: f64 = 58.0;
+const LEFT: f64 = 34.0;
 
 /// A node over the ray's parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,14 +49,11 @@ pub(super) fn draw(
     let place = |t: f64| left + (t - from) / extent * (right - left);
     let bottom = top + f64::from(depth + 1) * ROW;
 
-    canvas.text([at[0], at[1] + 10.0], Anchor::Start, 13.0, "nodes over t, from t_near to t_far");
+    canvas.text([at[0], at[1] + 10.0], Anchor::Start, 13.0, "nodes by depth, from t_near to t_far");
     for level in 0..=depth {
         let y = top + f64::from(level) * ROW;
         canvas.text([left - 8.0, y + 11.5], Anchor::End, 10.0, &level.to_string());
     }
-    let middle = [at[0] + 12.0, (top + bottom) / 2.0];
-    let turn = format!("rotate(-90 {} {})", middle[0], middle[1]);
-    canvas.add(super::canvas::label(middle, Anchor::Middle, 12.0, "depth").set("transform", turn));
     for bar in bars.iter().filter(|bar| bar.t[0] <= to && bar.t[1] >= from) {
         let bar = Bar { t: bar.t.map(|t| t.clamp(from, to)), ..*bar };
         let y = top + f64::from(bar.depth) * ROW;
@@ -79,7 +76,7 @@ fn draw_bar(canvas: &mut Canvas, bar: &Bar, y: f64, place: impl Fn(f64) -> f64) 
     let [x0, x1] = bar.t.map(&place);
     let (fill, edge) = match bar.fate {
         Fate::Split { axis, .. } => (palette::AXES[axis], palette::AXES[axis]),
-        Fate::Visited => (palette::ORANGE, palette::BLACK),
+        Fate::Visited => (palette::VISITED, palette::BLACK),
         Fate::Dropped => (palette::PALE, palette::GREY),
     };
     let opacity = if matches!(bar.fate, Fate::Split { .. }) { 0.28 } else { 1.0 };
