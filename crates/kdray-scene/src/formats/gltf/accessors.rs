@@ -6,11 +6,15 @@ use crate::LoadError;
 use ::gltf::json::accessor::{ComponentType, Type};
 use ::gltf::json::validation::Checked;
 use ::gltf::json::{Accessor, Index};
+use std::cell::Cell;
+use std::ops::RangeInclusive;
 
-#[derive(Clone, Copy)]
+/// Reads accessors.
 pub(super) struct Accessors<'a> {
     pub(super) document: Document<'a>,
-    pub(super) buffers: &'a Buffers,
+    buffers: &'a Buffers,
+    /// How many more numbers may be read.
+    budget: Cell<u64>,
 }
 
 /// How the elements of an accessor lie in a view.
@@ -52,13 +56,20 @@ impl Layout {
     }
 }
 
-impl Accessors<'_> {
-    /// The elements of an accessor; those of fewer than N numbers are filled up with 1, as colours
-    /// without alpha are. `least` is how many numbers an element must have.
+impl<'a> Accessors<'a> {
+    pub(super) fn new(document: Document<'a>, buffers: &'a Buffers) -> Self {
+        // Many accessors may show the same bytes, but there is no sense in many times as many
+        // numbers as bytes: a small file could take all memory.
+        let budget = Cell::new((1 << 22) + 16 * buffers.total() as u64);
+        Self { document, buffers, budget }
+    }
+
+    /// The elements of an accessor, which must be of so many numbers; if they are fewer than N, they
+    /// are filled up with 1, as colours without alpha are.
     pub(super) fn vectors<const N: usize>(
-        self,
+        &self,
         index: Index<Accessor>,
-        least: usize,
+        numbers: RangeInclusive<usize>,
     ) -> Result<Vec<[f64; N]>, LoadError> {
         let path = format!("accessors[{}]", index.value());
         let invalid = |reason: &str| self.document.invalid(&path, reason);
@@ -70,9 +81,12 @@ impl Accessors<'_> {
         };
         let components = kind.multiplicity();
         let is_plain = !matches!(kind, Type::Mat2 | Type::Mat3);
-        if !(least..=N).contains(&components) || !is_plain {
+        if !numbers.contains(&components) || components > N || !is_plain {
             return Err(invalid(&format!("elements of {components} numbers do not belong here")));
         }
+        let left = self.budget.get().checked_sub(accessor.count.0.saturating_mul(N as u64));
+        let left = left.ok_or_else(|| invalid("there are many more numbers than bytes"))?;
+        self.budget.set(left);
         let normalized = accessor.normalized;
         let layout = Layout { component: component.0, components, normalized };
         let mut elements = self.dense(accessor, &layout, &path)?;
@@ -82,7 +96,7 @@ impl Accessors<'_> {
 
     /// The elements, or zeros where there is no view.
     fn dense<const N: usize>(
-        self,
+        &self,
         accessor: &Accessor,
         layout: &Layout,
         path: &str,
@@ -91,12 +105,7 @@ impl Accessors<'_> {
         filler[..layout.components].fill(0.0);
         let count = accessor.count.0;
         let Some(view) = accessor.buffer_view else {
-            // Zeros take no room in the file, so that their number must be held against something.
-            if count > self.buffers.total() as u64 {
-                let reason =
-                    format!("{count} elements without data are more than the file has bytes");
-                return Err(self.document.invalid(path, reason));
-            }
+            // The budget bounds the count.
             return Ok(vec![filler; count as usize]);
         };
         let offset = accessor.byte_offset.unwrap_or_default().0;
@@ -115,7 +124,7 @@ impl Accessors<'_> {
 
     /// The bytes of `count` elements; a stride of 0 means that they are tightly packed.
     fn elements<'b>(
-        self,
+        &self,
         bytes: &'b [u8],
         offset: u64,
         count: u64,
@@ -145,7 +154,7 @@ impl Accessors<'_> {
 
     /// Replaces the elements that a sparse accessor names.
     fn apply_sparse<const N: usize>(
-        self,
+        &self,
         accessor: &Accessor,
         layout: &Layout,
         path: &str,

@@ -86,7 +86,7 @@ fn rotation(quaternion: [f64; 4]) -> DQuat {
 
 /// Where the copies of a node's mesh stand: one, or many with `EXT_mesh_gpu_instancing`.
 pub(super) fn instances(
-    accessors: Accessors<'_>,
+    accessors: &Accessors<'_>,
     node: &PlacedNode,
 ) -> Result<Vec<DMat4>, LoadError> {
     const EXTENSION: &str = "EXT_mesh_gpu_instancing";
@@ -105,9 +105,9 @@ pub(super) fn instances(
         }
     };
     let vectors =
-        |name: &str| accessor(name)?.map(|index| accessors.vectors::<3>(index, 3)).transpose();
+        |name: &str| accessor(name)?.map(|index| accessors.vectors::<3>(index, 3..=3)).transpose();
     let (translations, scales) = (vectors("TRANSLATION")?, vectors("SCALE")?);
-    let rotations = accessor("ROTATION")?.map(|index| accessors.vectors::<4>(index, 4));
+    let rotations = accessor("ROTATION")?.map(|index| accessors.vectors::<4>(index, 4..=4));
     let rotations = rotations.transpose()?;
     let lengths = [
         translations.as_ref().map(Vec::len),

@@ -7,7 +7,10 @@ use crate::mesh::{Corner, MeshBuilder};
 use crate::{LoadError, Place};
 use ::gltf::json::mesh::{Mode, Primitive, Semantic};
 use ::gltf::json::validation::Checked;
+use ::gltf::json::{Accessor, Index};
 use glam::{DMat3, DMat4, DVec3};
+use std::collections::HashMap;
+use std::ops::RangeInclusive;
 use std::rc::Rc;
 
 /// More triangles or vertices than this do not come of instances: a small file could take all
@@ -22,24 +25,31 @@ pub(super) struct Instance<'a> {
     pub(super) skin: Option<&'a Skin>,
 }
 
+/// An attribute of each vertex. Primitives may share one.
+type Attribute = Rc<Vec<[f64; 4]>>;
+
 /// A primitive as it is in the file.
 struct Part {
     path: String,
-    positions: Vec<[f64; 3]>,
+    positions: Attribute,
     /// Each list is empty or as long as `positions`.
-    normals: Vec<[f64; 3]>,
-    uvs: Vec<[f64; 2]>,
-    colors: Vec<[f64; 4]>,
-    joints: Vec<[f64; 4]>,
-    weights: Vec<[f64; 4]>,
+    normals: Attribute,
+    uvs: Attribute,
+    colors: Attribute,
+    joints: Attribute,
+    weights: Attribute,
     triangles: Vec<[u32; 3]>,
     material: Option<u32>,
+    /// The accessors that tell where vertices are. Primitives of a mesh that have the same share
+    /// their vertices.
+    sources: [Option<usize>; 3],
 }
 
 /// Puts instances of meshes into a model.
 pub(super) struct Flattener<'a> {
-    accessors: Accessors<'a>,
+    accessors: &'a Accessors<'a>,
     materials: &'a ReadMaterials,
+    attributes: HashMap<usize, Attribute>,
     meshes: Vec<Option<Rc<Vec<Part>>>>,
     /// Primitives of points or lines, or without positions.
     passed_over: u64,
@@ -47,9 +57,16 @@ pub(super) struct Flattener<'a> {
 }
 
 impl<'a> Flattener<'a> {
-    pub(super) fn new(accessors: Accessors<'a>, materials: &'a ReadMaterials) -> Self {
+    pub(super) fn new(accessors: &'a Accessors<'a>, materials: &'a ReadMaterials) -> Self {
         let meshes = vec![None; accessors.document.root.meshes.len()];
-        Self { accessors, materials, meshes, passed_over: 0, morphed: false }
+        Self {
+            accessors,
+            materials,
+            attributes: HashMap::new(),
+            meshes,
+            passed_over: 0,
+            morphed: false,
+        }
     }
 
     pub(super) fn add(
@@ -58,6 +75,7 @@ impl<'a> Flattener<'a> {
         builder: &mut MeshBuilder<'_>,
     ) -> Result<(), LoadError> {
         let parts = self.mesh(instance.mesh)?;
+        let mut bases = HashMap::new();
         for part in parts.iter() {
             let model = &builder.model;
             let triangles = model.triangles.len() + part.triangles.len();
@@ -66,7 +84,12 @@ impl<'a> Flattener<'a> {
                 let reason = format!("the instances have more than {MAX_FLATTENED} triangles");
                 return Err(self.accessors.document.invalid(&part.path, reason));
             }
-            add_part(part, instance, builder)?;
+            let base = *bases.entry(part.sources).or_insert_with(|| {
+                let base = builder.model.vertices.len();
+                add_vertices(part, instance, builder);
+                base
+            });
+            add_triangles(part, instance, base, builder)?;
         }
         Ok(())
     }
@@ -103,7 +126,7 @@ impl<'a> Flattener<'a> {
     }
 
     /// None for points, lines and primitives without positions.
-    fn part(&self, primitive: &Primitive, path: String) -> Result<Option<Part>, LoadError> {
+    fn part(&mut self, primitive: &Primitive, path: String) -> Result<Option<Part>, LoadError> {
         let Checked::Valid(mode) = primitive.mode else { return Ok(None) };
         let has_triangles =
             matches!(mode, Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan);
@@ -111,45 +134,54 @@ impl<'a> Flattener<'a> {
         let Some(positions) = attribute(Semantic::Positions).filter(|_| has_triangles) else {
             return Ok(None);
         };
-        let positions = self.accessors.vectors::<3>(positions, 3)?;
+        let sources =
+            [Some(positions), attribute(Semantic::Joints(0)), attribute(Semantic::Weights(0))];
+        let positions = self.attribute(Some(positions), 3..=3)?;
         let count = positions.len();
         let indices = match primitive.indices {
             Some(index) => {
-                let indices = self.accessors.vectors::<1>(index, 1)?;
+                let indices = self.accessors.vectors::<1>(index, 1..=1)?;
                 indices.into_iter().map(|[index]| index as u32).collect()
             }
             None => (0..count as u32).collect::<Vec<_>>(),
         };
         let material = primitive.material.map(|material| material.value());
         let uv_set = material.map_or(0, |material| self.materials.uv_set(material));
-        Ok(Some(Part {
+        let part = Part {
             positions,
-            normals: self.list(attribute(Semantic::Normals), 3, count, &path)?,
-            uvs: self.list(attribute(Semantic::TexCoords(uv_set)), 2, count, &path)?,
-            colors: self.list(attribute(Semantic::Colors(0)), 3, count, &path)?,
-            joints: self.list(attribute(Semantic::Joints(0)), 4, count, &path)?,
-            weights: self.list(attribute(Semantic::Weights(0)), 4, count, &path)?,
+            normals: self.attribute(attribute(Semantic::Normals), 3..=3)?,
+            uvs: self.attribute(attribute(Semantic::TexCoords(uv_set)), 2..=2)?,
+            colors: self.attribute(attribute(Semantic::Colors(0)), 3..=4)?,
+            joints: self.attribute(sources[1], 4..=4)?,
+            weights: self.attribute(sources[2], 4..=4)?,
             triangles: triangles(mode, &indices),
             material: material.map(|material| material as u32),
+            sources: sources.map(|source| source.map(|index| index.value())),
             path,
-        }))
+        };
+        for list in [&part.normals, &part.uvs, &part.colors, &part.joints, &part.weights] {
+            if !list.is_empty() && list.len() != count {
+                let length = list.len();
+                let reason = format!("an attribute of {length} elements for {count} positions");
+                return Err(self.accessors.document.invalid(&part.path, reason));
+            }
+        }
+        Ok(Some(part))
     }
 
-    fn list<const N: usize>(
-        &self,
-        index: Option<::gltf::json::Index<::gltf::json::Accessor>>,
-        least: usize,
-        count: usize,
-        path: &str,
-    ) -> Result<Vec<[f64; N]>, LoadError> {
-        let Some(index) = index else { return Ok(Vec::new()) };
-        let list = self.accessors.vectors(index, least)?;
-        if list.len() != count {
-            let length = list.len();
-            let reason = format!("an attribute of {length} elements for {count} positions");
-            return Err(self.accessors.document.invalid(path, reason));
+    /// The elements of an accessor; none if there is no accessor.
+    fn attribute(
+        &mut self,
+        index: Option<Index<Accessor>>,
+        numbers: RangeInclusive<usize>,
+    ) -> Result<Attribute, LoadError> {
+        let Some(index) = index else { return Ok(Rc::default()) };
+        if let Some(known) = self.attributes.get(&index.value()) {
+            return Ok(Rc::clone(known));
         }
-        Ok(list)
+        let attribute = Rc::new(self.accessors.vectors(index, numbers)?);
+        self.attributes.insert(index.value(), Rc::clone(&attribute));
+        Ok(attribute)
     }
 }
 
@@ -190,37 +222,57 @@ impl Placement {
     }
 }
 
-fn add_part(
+/// Where each vertex of a part goes.
+struct Placements {
+    whole: Placement,
+    /// By vertex, if the part is skinned.
+    skinned: Vec<Placement>,
+}
+
+impl Placements {
+    fn new(part: &Part, instance: &Instance<'_>) -> Self {
+        let whole = Placement::new(instance.transform);
+        let pairs = part.joints.iter().zip(part.weights.iter());
+        let skinned = instance.skin.map_or(Vec::new(), |skin| {
+            let transforms = pairs.map(|(&joints, &weights)| skin.transform(joints, weights));
+            let placed =
+                transforms.map(|known| Placement::new(known.unwrap_or(instance.transform)));
+            placed.collect()
+        });
+        Self { whole, skinned }
+    }
+
+    fn of(&self, vertex: usize) -> &Placement {
+        self.skinned.get(vertex).unwrap_or(&self.whole)
+    }
+}
+
+fn add_vertices(part: &Part, instance: &Instance<'_>, builder: &mut MeshBuilder<'_>) {
+    let placements = Placements::new(part, instance);
+    builder.model.vertices.extend(part.positions.iter().enumerate().map(|(vertex, p)| {
+        let position = DVec3::new(p[0], p[1], p[2]);
+        <[f32; 3]>::from(placements.of(vertex).position.transform_point3(position).as_vec3())
+    }));
+}
+
+fn add_triangles(
     part: &Part,
     instance: &Instance<'_>,
+    base: usize,
     builder: &mut MeshBuilder<'_>,
 ) -> Result<(), LoadError> {
-    let whole = Placement::new(instance.transform);
-    let is_skinned = !part.joints.is_empty() && !part.weights.is_empty();
-    let skin = instance.skin.filter(|_| is_skinned);
-    let skinned: Vec<Placement> = skin.map_or(Vec::new(), |skin| {
-        let pairs = part.joints.iter().zip(&part.weights);
-        let transforms = pairs.map(|(&joints, &weights)| skin.transform(joints, weights));
-        transforms
-            .map(|transform| Placement::new(transform.unwrap_or(instance.transform)))
-            .collect()
-    });
-    let placement = |vertex: usize| skinned.get(vertex).unwrap_or(&whole);
-    let base = builder.model.vertices.len();
-    for (vertex, &position) in part.positions.iter().enumerate() {
-        let placed = placement(vertex).position.transform_point3(DVec3::from(position));
-        builder.model.vertices.push(placed.as_vec3().into());
-    }
+    let placements = Placements::new(part, instance);
     builder.material = part.material;
     // So that messages number vertices as the file does.
     builder.first_index = -(base as i64);
     let corner = |index: u32| {
         let i = index as usize;
-        let normal = part.normals.get(i).map(|&normal| {
-            (placement(i).normal * DVec3::from(normal)).normalize_or_zero().as_vec3().into()
+        let normal = part.normals.get(i).map(|n| {
+            let normal = placements.of(i).normal * DVec3::new(n[0], n[1], n[2]);
+            normal.normalize_or_zero().as_vec3().into()
         });
         let color = part.colors.get(i).map(|c| [c[0], c[1], c[2]].map(|x| x as f32));
-        let uv = part.uvs.get(i).map(|uv| uv.map(|x| x as f32));
+        let uv = part.uvs.get(i).map(|uv| [uv[0], uv[1]].map(|x| x as f32));
         Corner { vertex: (base + i) as i64, normal, uv, color }
     };
     for (number, triangle) in part.triangles.iter().enumerate() {
@@ -232,10 +284,35 @@ fn add_part(
             continue;
         }
         let mut corners = triangle.map(corner);
-        if placement(triangle[0] as usize).mirrors {
+        if placements.of(triangle[0] as usize).mirrors {
             corners.swap(1, 2);
         }
         builder.polygon(&corners, place)?;
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn strips_and_fans_keep_their_winding() {
+        let strip = triangles(Mode::TriangleStrip, &[0, 1, 2, 3]);
+        assert_eq!(strip, [[0, 1, 2], [1, 3, 2]]);
+        let fan = triangles(Mode::TriangleFan, &[0, 1, 2, 3]);
+        assert_eq!(fan, [[1, 2, 0], [2, 3, 0]]);
+        let list = triangles(Mode::Triangles, &[0, 1, 2, 3, 4]);
+        assert_eq!(list, [[0, 1, 2]]);
+    }
+
+    #[test]
+    fn mirrors_are_known_and_normals_stay_outside() {
+        let mirror = Placement::new(DMat4::from_scale(DVec3::new(-2.0, 1.0, 1.0)));
+        assert!(mirror.mirrors);
+        assert!((mirror.normal * DVec3::X).x < 0.0, "the side that faced +x now faces -x");
+        assert!((mirror.normal * DVec3::Y).y > 0.0);
+        let turned = Placement::new(DMat4::from_scale(DVec3::new(-1.0, -1.0, 1.0)));
+        assert!(!turned.mirrors);
+    }
 }

@@ -53,16 +53,16 @@ pub(super) fn read(
     }
     let graph = Graph::new(document)?;
     let buffers = Buffers::load(document, container.binary)?;
-    let accessors = Accessors { document, buffers: &buffers };
+    let accessors = Accessors::new(document, &buffers);
     let materials = Materials::new(document, &buffers).read(&mut builder)?;
-    let mut flattener = Flattener::new(accessors, &materials);
+    let mut flattener = Flattener::new(&accessors, &materials);
     for node in &graph.visited {
         let index = node.index;
         lamps::add_camera(document, node, &mut builder);
         lamps::add_light(document, node, &mut builder);
         let Some(mesh) = document.root.nodes[index].mesh else { continue };
-        let skin = skins::Skin::of_node(accessors, &graph, index)?;
-        for transform in graph::instances(accessors, node)? {
+        let skin = skins::Skin::of_node(&accessors, &graph, index)?;
+        for transform in graph::instances(&accessors, node)? {
             let instance = Instance { mesh: mesh.value(), transform, skin: skin.as_ref() };
             flattener.add(&instance, &mut builder)?;
         }

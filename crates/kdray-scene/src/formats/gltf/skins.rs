@@ -13,7 +13,7 @@ pub(super) struct Skin {
 impl Skin {
     /// The skin of a node, if it has one.
     pub(super) fn of_node(
-        accessors: Accessors<'_>,
+        accessors: &Accessors<'_>,
         graph: &Graph,
         node: usize,
     ) -> Result<Option<Self>, LoadError> {
@@ -22,7 +22,7 @@ impl Skin {
             return Ok(None);
         };
         let inverse_bind = match skin.inverse_bind_matrices {
-            Some(index) => accessors.vectors::<16>(index, 16)?,
+            Some(index) => accessors.vectors::<16>(index, 16..=16)?,
             None => Vec::new(),
         };
         let joints = skin.joints.iter().enumerate().map(|(i, joint)| {
