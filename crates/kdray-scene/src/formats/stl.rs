@@ -61,6 +61,9 @@ impl Reader<'_> {
             self.builder.polygon(&corners, || triangle(index))?;
         }
         if self.scanner.peek()?.is_some() {
+            if count == 0 {
+                return Err(self.scanner.error_at_byte("goes on, but says it has no triangles"));
+            }
             let byte = self.scanner.byte();
             self.builder.warn(format!("byte {byte}: what follows the last triangle passed over"));
         }

@@ -125,6 +125,16 @@ pub(super) fn validate(document: Document<'_>) -> Result<(), LoadError> {
         let place = Place::Json("asset.version".to_owned());
         return Err(unsupported(request, place, format!("glTF {}", root.asset.version)));
     }
+    // The crate's own check looks positions up without asking whether they are there.
+    for (mesh, primitives) in root.meshes.iter().map(|mesh| &mesh.primitives).enumerate() {
+        for (number, primitive) in primitives.iter().enumerate() {
+            let mut accessors = primitive.attributes.values();
+            if accessors.any(|accessor| root.get(*accessor).is_none()) {
+                let path = format!("meshes[{mesh}].primitives[{number}].attributes");
+                return Err(document.invalid(&path, "index out of bounds"));
+            }
+        }
+    }
     let mut first = None;
     root.validate(root, Path::new, &mut |path, error| {
         if matches!(error, Error::IndexOutOfBounds | Error::Invalid | Error::Oversize) {

@@ -18,11 +18,11 @@ use std::rc::Rc;
 const MAX_FLATTENED: usize = 1 << 25;
 
 /// A mesh at a place.
-pub(super) struct Instance<'a> {
+pub(super) struct Instance {
     pub(super) mesh: usize,
     pub(super) transform: DMat4,
     /// Takes the place of the transform.
-    pub(super) skin: Option<&'a Skin>,
+    pub(super) skin: Option<Rc<Skin>>,
 }
 
 /// An attribute of each vertex. Primitives may share one.
@@ -43,6 +43,14 @@ struct Part {
     /// The accessors that tell where vertices are. Primitives of a mesh that have the same share
     /// their vertices.
     sources: [Option<usize>; 3],
+}
+
+/// How many triangles the parts of a mesh have, or how many vertices if these are more.
+fn size_of(parts: &[Part]) -> usize {
+    let vertices: HashMap<_, usize> =
+        parts.iter().map(|part| (part.sources, part.positions.len())).collect();
+    let triangles: usize = parts.iter().map(|part| part.triangles.len()).sum();
+    triangles.max(vertices.values().sum())
 }
 
 /// Puts instances of meshes into a model.
@@ -69,21 +77,30 @@ impl<'a> Flattener<'a> {
         }
     }
 
+    /// Refuses instances that have too many triangles or vertices together.
+    pub(super) fn check_size(&mut self, instances: &[Instance]) -> Result<(), LoadError> {
+        let mut size = 0;
+        let mut sizes = HashMap::new();
+        for instance in instances {
+            let parts = self.mesh(instance.mesh)?;
+            size += *sizes.entry(instance.mesh).or_insert_with(|| size_of(&parts));
+            if size > MAX_FLATTENED {
+                let path = format!("meshes[{}]", instance.mesh);
+                let reason = format!("the instances have more than {MAX_FLATTENED} triangles");
+                return Err(self.accessors.document.invalid(&path, reason));
+            }
+        }
+        Ok(())
+    }
+
     pub(super) fn add(
         &mut self,
-        instance: &Instance<'_>,
+        instance: &Instance,
         builder: &mut MeshBuilder<'_>,
     ) -> Result<(), LoadError> {
         let parts = self.mesh(instance.mesh)?;
         let mut bases = HashMap::new();
         for part in parts.iter() {
-            let model = &builder.model;
-            let triangles = model.triangles.len() + part.triangles.len();
-            let vertices = model.vertices.len() + part.positions.len();
-            if triangles.max(vertices) > MAX_FLATTENED {
-                let reason = format!("the instances have more than {MAX_FLATTENED} triangles");
-                return Err(self.accessors.document.invalid(&part.path, reason));
-            }
             let base = *bases.entry(part.sources).or_insert_with(|| {
                 let base = builder.model.vertices.len();
                 add_vertices(part, instance, builder);
@@ -230,10 +247,10 @@ struct Placements {
 }
 
 impl Placements {
-    fn new(part: &Part, instance: &Instance<'_>) -> Self {
+    fn new(part: &Part, instance: &Instance) -> Self {
         let whole = Placement::new(instance.transform);
         let pairs = part.joints.iter().zip(part.weights.iter());
-        let skinned = instance.skin.map_or(Vec::new(), |skin| {
+        let skinned = instance.skin.as_ref().map_or(Vec::new(), |skin| {
             let transforms = pairs.map(|(&joints, &weights)| skin.transform(joints, weights));
             let placed =
                 transforms.map(|known| Placement::new(known.unwrap_or(instance.transform)));
@@ -247,7 +264,7 @@ impl Placements {
     }
 }
 
-fn add_vertices(part: &Part, instance: &Instance<'_>, builder: &mut MeshBuilder<'_>) {
+fn add_vertices(part: &Part, instance: &Instance, builder: &mut MeshBuilder<'_>) {
     let placements = Placements::new(part, instance);
     builder.model.vertices.extend(part.positions.iter().enumerate().map(|(vertex, p)| {
         let position = DVec3::new(p[0], p[1], p[2]);
@@ -257,7 +274,7 @@ fn add_vertices(part: &Part, instance: &Instance<'_>, builder: &mut MeshBuilder<
 
 fn add_triangles(
     part: &Part,
-    instance: &Instance<'_>,
+    instance: &Instance,
     base: usize,
     builder: &mut MeshBuilder<'_>,
 ) -> Result<(), LoadError> {

@@ -23,6 +23,7 @@ use graph::Graph;
 use materials::Materials;
 use meshes::{Flattener, Instance};
 use std::io::Read;
+use std::rc::Rc;
 
 /// A checked document and the means to report on it.
 #[derive(Clone, Copy)]
@@ -56,16 +57,19 @@ pub(super) fn read(
     let accessors = Accessors::new(document, &buffers);
     let materials = Materials::new(document, &buffers).read(&mut builder)?;
     let mut flattener = Flattener::new(&accessors, &materials);
+    let mut instances = Vec::new();
     for node in &graph.visited {
-        let index = node.index;
         lamps::add_camera(document, node, &mut builder);
         lamps::add_light(document, node, &mut builder);
-        let Some(mesh) = document.root.nodes[index].mesh else { continue };
-        let skin = skins::Skin::of_node(&accessors, &graph, index)?;
+        let Some(mesh) = document.root.nodes[node.index].mesh else { continue };
+        let skin = skins::Skin::of_node(&accessors, &graph, node.index)?.map(Rc::new);
         for transform in graph::instances(&accessors, node)? {
-            let instance = Instance { mesh: mesh.value(), transform, skin: skin.as_ref() };
-            flattener.add(&instance, &mut builder)?;
+            instances.push(Instance { mesh: mesh.value(), transform, skin: skin.clone() });
         }
+    }
+    flattener.check_size(&instances)?;
+    for instance in &instances {
+        flattener.add(instance, &mut builder)?;
     }
     flattener.finish(&mut builder);
     Ok(builder.finish())
