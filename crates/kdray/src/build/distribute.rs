@@ -14,13 +14,33 @@ pub(super) struct Distribution {
     pub(super) clipped: [Vec<u32>; 2],
 }
 
-/// Where a reference went: to one child, with its bounds as they are and this index there; or it
-/// straddles the plane, and was clipped anew for both children.
+/// Where a reference went, in four bytes: to one child, with its bounds as they are and a new index
+/// there; or it straddles the plane, and was clipped anew for both children.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Fate {
-    Below(u32),
-    Above(u32),
-    Clipped,
+pub(super) struct Fate(u32);
+
+impl Fate {
+    const BELOW: u32 = 1 << 30;
+    const ABOVE: u32 = 2 << 30;
+    const CLIPPED: Self = Self(0);
+
+    /// 1 if it went below as it is, else 0.
+    #[inline]
+    pub(super) fn is_below(self) -> usize {
+        (self.0 >> 30 & 1) as usize
+    }
+
+    /// 1 if it went above as it is, else 0.
+    #[inline]
+    pub(super) fn is_above(self) -> usize {
+        (self.0 >> 31) as usize
+    }
+
+    /// Its index in the child that it went to.
+    #[inline]
+    pub(super) fn index(self) -> u32 {
+        self.0 & (Self::BELOW - 1)
+    }
 }
 
 impl Distribution {
@@ -51,15 +71,15 @@ impl Distribution {
                 (true, true) => {
                     self.clip(primitives, reference, 0, cells[0], below);
                     self.clip(primitives, reference, 1, cells[1], above);
-                    Fate::Clipped
+                    Fate::CLIPPED
                 }
                 (true, false) => {
                     below.push(*reference);
-                    Fate::Below(below.len() as u32 - 1)
+                    Fate(Fate::BELOW | (below.len() as u32 - 1))
                 }
                 _ => {
                     above.push(*reference);
-                    Fate::Above(above.len() as u32 - 1)
+                    Fate(Fate::ABOVE | (above.len() as u32 - 1))
                 }
             };
             self.fates.push(fate);

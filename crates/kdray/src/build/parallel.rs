@@ -15,6 +15,15 @@ pub(super) fn join<A, B>(a: impl FnOnce() -> A, b: impl FnOnce() -> B) -> (A, B)
     (a(), b())
 }
 
+/// Runs both on this thread, or as [`join`] does if they are `large`.
+pub(super) fn join_if<A: Send, B: Send>(
+    large: bool,
+    a: impl FnOnce() -> A + Send,
+    b: impl FnOnce() -> B + Send,
+) -> (A, B) {
+    if large { join(a, b) } else { (a(), b()) }
+}
+
 /// `f` of all numbers below `end`, in order.
 #[cfg(feature = "rayon")]
 pub(super) fn map_range<T: Send>(end: u32, f: impl Fn(u32) -> T + Sync) -> Vec<T> {

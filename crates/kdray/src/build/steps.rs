@@ -66,10 +66,11 @@ struct OpenNode<const K: usize, E> {
     futile_splits: u32,
     /// Its share of the progress.
     weight: u64,
-    contents: Contents<K, E>,
+    contents: Box<Contents<K, E>>,
 }
 
 /// A node's references and what is kept besides.
+#[derive(Default)]
 struct Contents<const K: usize, E> {
     references: Vec<Reference<K>>,
     kept: E,
@@ -78,7 +79,7 @@ struct Contents<const K: usize, E> {
 /// What a thread uses again from node to node.
 struct Workspace<const K: usize, E> {
     distribution: Distribution,
-    spare: Vec<Contents<K, E>>,
+    spare: Vec<Box<Contents<K, E>>>,
     /// Progress that is not yet told.
     done: u64,
 }
@@ -113,7 +114,7 @@ impl<P, S> Build<'_, P, S> {
             quota: BuildOptions::reference_quota(count),
             futile_splits: 0,
             weight: Progress::WHOLE,
-            contents: Contents { kept: S::Kept::of_root(&references), references },
+            contents: Box::new(Contents { kept: S::Kept::of_root(&references), references }),
         };
 
         let mut tree = Subtree::default();
@@ -244,7 +245,11 @@ impl<P, S> Build<'_, P, S> {
 }
 
 impl<const K: usize, E> OpenNode<K, E> {
-    fn children(&self, counts: [usize; 2], children: [(Aabb<K>, Contents<K, E>); 2]) -> [Self; 2] {
+    fn children(
+        &self,
+        counts: [usize; 2],
+        children: [(Aabb<K>, Box<Contents<K, E>>); 2],
+    ) -> [Self; 2] {
         let count = self.contents.references.len();
         // Cutting off empty space neither is futile nor separates anything.
         let futile_splits = match counts {
@@ -254,12 +259,12 @@ impl<const K: usize, E> OpenNode<K, E> {
         };
         let quotas = share(self.quota, counts);
         let weights = share(self.weight, counts);
-        let mut side = 0;
-        children.map(|(cell, contents)| {
+        let child = |side: usize, cell, contents| {
             let (quota, weight) = (quotas[side], weights[side]);
-            side += 1;
             Self { cell, depth: self.depth + 1, quota, futile_splits, weight, contents }
-        })
+        };
+        let [(cell_below, below), (cell_above, above)] = children;
+        [child(0, cell_below, below), child(1, cell_above, above)]
     }
 }
 
@@ -277,13 +282,12 @@ impl<const K: usize, E: Kept<K>> Workspace<K, E> {
     }
 
     /// Contents without references; what is kept may be anything.
-    fn take(&mut self) -> Contents<K, E> {
-        let empty = || Contents { references: Vec::new(), kept: E::default() };
-        self.spare.pop().unwrap_or_else(empty)
+    fn take(&mut self) -> Box<Contents<K, E>> {
+        self.spare.pop().unwrap_or_default()
     }
 
     /// Keeps the memory of contents for the next, unless it is much.
-    fn give(&mut self, mut contents: Contents<K, E>) {
+    fn give(&mut self, mut contents: Box<Contents<K, E>>) {
         if contents.references.capacity() <= LARGE {
             contents.references.clear();
             self.spare.push(contents);

@@ -1,6 +1,6 @@
 //! Where primitives begin and end on an axis.
 
-use crate::build::distribute::{Distribution, Fate};
+use crate::build::distribute::Distribution;
 use crate::build::parallel::sort;
 use crate::build::reference::Reference;
 
@@ -62,32 +62,26 @@ impl Event {
 }
 
 /// The events of a node on one axis, in order.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct EventList(Vec<Event>);
+#[derive(Clone, Debug, Default)]
+pub(super) struct EventList {
+    events: Vec<Event>,
+    /// Room to sort new events in.
+    fresh: Vec<Event>,
+}
 
 impl EventList {
     /// The events of all `references`.
     pub(super) fn of_all<const K: usize>(references: &[Reference<K>], axis: usize) -> Self {
-        let mut list = Self(Vec::with_capacity(2 * references.len()));
+        let mut events = Vec::with_capacity(2 * references.len());
         for (index, reference) in references.iter().enumerate() {
-            list.push(reference, index as u32, axis);
+            push_events(&mut events, reference, index as u32, axis);
         }
-        sort(&mut list.0);
-        list
+        sort(&mut events);
+        Self { events, fresh: Vec::new() }
     }
 
     pub(super) fn as_slice(&self) -> &[Event] {
-        &self.0
-    }
-
-    fn push<const K: usize>(&mut self, reference: &Reference<K>, index: u32, axis: usize) {
-        let (lo, hi) = (reference.bounds.min[axis], reference.bounds.max[axis]);
-        if lo == hi {
-            self.0.push(Event::new(lo, Kind::Planar, index));
-        } else {
-            self.0.push(Event::new(lo, Kind::Start, index));
-            self.0.push(Event::new(hi, Kind::End, index));
-        }
+        &self.events
     }
 
     /// Splices the list into those of the children: events of references that went to one child
@@ -100,36 +94,67 @@ impl EventList {
         below: &mut Self,
         above: &mut Self,
     ) {
-        below.0.clear();
-        above.0.clear();
-        for &event in &self.0 {
-            match distribution.fates[event.index()] {
-                Fate::Below(index) => below.0.push(event.with_index(index)),
-                Fate::Above(index) => above.0.push(event.with_index(index)),
-                Fate::Clipped => {}
-            }
-        }
+        self.split_unchanged(distribution, &mut below.events, &mut above.events);
         for (side, child) in [below, above].into_iter().enumerate() {
-            let mut fresh = Self::default();
+            child.fresh.clear();
             for &index in &distribution.clipped[side] {
-                fresh.push(&references[side][index as usize], index, axis);
+                push_events(&mut child.fresh, &references[side][index as usize], index, axis);
             }
-            fresh.0.sort_unstable();
-            child.merge(&fresh.0);
+            child.fresh.sort_unstable();
+            merge(&mut child.events, &child.fresh);
         }
     }
 
-    /// Merges in `fresh`, which is sorted, from the back.
-    fn merge(&mut self, fresh: &[Event]) {
-        let mut old = self.0.len();
-        self.0.extend_from_slice(fresh);
-        for (rest, &event) in fresh.iter().enumerate().rev() {
-            while old > 0 && self.0[old - 1] > event {
-                self.0[old + rest] = self.0[old - 1];
-                old -= 1;
-            }
-            self.0[old + rest] = event;
+    /// Each event is written to both lists, and stays in the one whose length counts it: which it
+    /// is cannot be foretold, and a wrongly predicted branch would cost more.
+    fn split_unchanged(
+        &self,
+        distribution: &Distribution,
+        below: &mut Vec<Event>,
+        above: &mut Vec<Event>,
+    ) {
+        let count = self.events.len();
+        below.resize(count, Event(0));
+        above.resize(count, Event(0));
+        let (mut count_below, mut count_above) = (0, 0);
+        for &event in &self.events {
+            let fate = distribution.fates[event.index()];
+            let event = event.with_index(fate.index());
+            below[count_below] = event;
+            above[count_above] = event;
+            count_below += fate.is_below();
+            count_above += fate.is_above();
         }
+        below.truncate(count_below);
+        above.truncate(count_above);
+    }
+}
+
+fn push_events<const K: usize>(
+    events: &mut Vec<Event>,
+    reference: &Reference<K>,
+    index: u32,
+    axis: usize,
+) {
+    let (lo, hi) = (reference.bounds.min[axis], reference.bounds.max[axis]);
+    if lo == hi {
+        events.push(Event::new(lo, Kind::Planar, index));
+    } else {
+        events.push(Event::new(lo, Kind::Start, index));
+        events.push(Event::new(hi, Kind::End, index));
+    }
+}
+
+/// Merges `fresh` into `events`, both of which are sorted, from the back.
+fn merge(events: &mut Vec<Event>, fresh: &[Event]) {
+    let mut old = events.len();
+    events.extend_from_slice(fresh);
+    for (rest, &event) in fresh.iter().enumerate().rev() {
+        while old > 0 && events[old - 1] > event {
+            events[old + rest] = events[old - 1];
+            old -= 1;
+        }
+        events[old + rest] = event;
     }
 }
 
@@ -161,11 +186,11 @@ mod tests {
             (&[1.0], &[]),
             (&[2.0], &[1.0, 3.0]),
         ] {
-            let mut merged = EventList(list(old));
-            merged.merge(&list(fresh));
+            let mut merged = list(old);
+            merge(&mut merged, &list(fresh));
             let mut expected = list(&[old, fresh].concat());
             expected.sort_unstable();
-            assert_eq!(merged.0, expected);
+            assert_eq!(merged, expected);
         }
     }
 }

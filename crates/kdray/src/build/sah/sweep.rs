@@ -2,9 +2,10 @@
 //! doing that in O(N log N)", 2006, §4.3.
 
 use super::candidate::{AxisView, Candidate, SideCounts, better};
-use super::event::{EventList, Kind};
+use super::event::{Event, EventList, Kind};
 use crate::build::CostModel;
 use crate::build::distribute::Distribution;
+use crate::build::parallel::join_if;
 use crate::build::plane::SplitPlane;
 use crate::build::reference::Reference;
 use crate::build::steps::{ChoosePlane, Kept, NodeView};
@@ -18,44 +19,66 @@ pub(in crate::build) struct Sweep {
 /// The events of a node on each axis.
 pub(in crate::build) struct Events<const K: usize>([EventList; K]);
 
+/// Nodes with more references than this are swept and spliced on several axes at a time.
+const LARGE: usize = 1 << 15;
+
 impl<const K: usize> ChoosePlane<K> for Sweep {
     type Kept = Events<K>;
 
     fn choose(&self, node: &NodeView<'_, K>, events: &Events<K>) -> Option<SplitPlane> {
-        let mut best = None;
-        for (axis, list) in events.0.iter().enumerate() {
-            let view = AxisView::new(node.cell, axis)?;
-            best = better(best, self.sweep(&view, list, node.references.len()));
-        }
-        best.filter(|best| self.cost.is_worth(best.cost, node.references.len()))
-            .map(|best| best.plane)
+        let count = node.references.len();
+        let best = self.best_from(0, node, events);
+        best.filter(|best| self.cost.is_worth(best.cost, count)).map(|best| best.plane)
     }
 }
 
 impl Sweep {
+    /// The best candidate on `axis` and those after it.
+    fn best_from<const K: usize>(
+        &self,
+        axis: usize,
+        node: &NodeView<'_, K>,
+        events: &Events<K>,
+    ) -> Option<Candidate> {
+        let list = events.0.get(axis)?;
+        let view = AxisView::new(node.cell, axis)?;
+        let count = node.references.len();
+        let (here, others) = join_if(
+            count > LARGE,
+            || self.sweep(&view, list.as_slice(), count),
+            || self.best_from(axis + 1, node, events),
+        );
+        better(here, others)
+    }
+
     /// The best candidate on one axis.
-    fn sweep(&self, view: &AxisView, events: &EventList, count: usize) -> Option<Candidate> {
-        let mut best = None;
+    fn sweep(&self, view: &AxisView, events: &[Event], count: usize) -> Option<Candidate> {
+        let mut best: Option<Candidate> = None;
+        let mut least = f64::INFINITY;
         let (mut below, mut above) = (0, count);
-        let mut rest = events.as_slice();
-        while let [first, ..] = rest {
+        let mut next = 0;
+        while next < events.len() {
+            let image = events[next].image();
+            let position = events[next].position();
             // All events at one position: what ends or is planar there is no longer above; what is
             // planar or starts there is below the next.
-            let mut here = [0; 3];
-            while let [event, tail @ ..] = rest
-                && event.image() == first.image()
-            {
-                here[event.kind()] += 1;
-                rest = tail;
+            let (mut ends, mut planar, first) = (0, 0, next);
+            while next < events.len() && events[next].image() == image {
+                ends += usize::from(events[next].kind() == Kind::End as usize);
+                planar += usize::from(events[next].kind() == Kind::Planar as usize);
+                next += 1;
             }
-            let planar = here[Kind::Planar as usize];
-            above -= planar + here[Kind::End as usize];
-            let position = first.position();
+            above -= planar + ends;
             if view.is_inside(position) {
                 let counts = SideCounts { below, planar, above };
-                best = better(best, Some(view.candidate(&self.cost, position, counts)));
+                let candidate = view.candidate(&self.cost, position, counts);
+                // Positions rise, so of equal costs the first is the better one.
+                if candidate.cost < least {
+                    least = candidate.cost;
+                    best = Some(candidate);
+                }
             }
-            below += planar + here[Kind::Start as usize];
+            below += next - first - ends;
         }
         best
     }
@@ -79,9 +102,25 @@ impl<const K: usize> Kept<K> for Events<K> {
         below: &mut Self,
         above: &mut Self,
     ) {
-        let children = below.0.iter_mut().zip(&mut above.0);
-        for (axis, (list, (below, above))) in self.0.iter().zip(children).enumerate() {
-            list.splice(axis, distribution, references, below, above);
-        }
+        let children = (&mut below.0[..], &mut above.0[..]);
+        splice_from(0, &self.0, distribution, references, children);
+    }
+}
+
+/// Splices the lists of `axis` and those after it.
+fn splice_from<const K: usize>(
+    axis: usize,
+    parent: &[EventList],
+    distribution: &Distribution,
+    references: [&[Reference<K>]; 2],
+    (below, above): (&mut [EventList], &mut [EventList]),
+) {
+    if let ([list, lists @ ..], [below, belows @ ..], [above, aboves @ ..]) = (parent, below, above)
+    {
+        join_if(
+            references[0].len() + references[1].len() > LARGE,
+            || list.splice(axis, distribution, references, below, above),
+            || splice_from(axis + 1, lists, distribution, references, (belows, aboves)),
+        );
     }
 }
