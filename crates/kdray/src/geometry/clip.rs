@@ -32,14 +32,18 @@ pub fn clipped_bounds<const K: usize>(polygon: &[[f32; K]], cell: &Aabb<K>) -> O
         return (!limit.is_empty()).then_some(limit);
     }
     let pad = pad(&whole, cell);
-    let mut part: Polygon<K> =
-        polygon.iter().map(|&p| Vertex { position: p.map(f64::from), error: 0.0 }).collect();
+    // Each cut reads one of two buffers and writes the other.
+    let mut buffers: [Polygon<K>; 2] = [Polygon::new(), Polygon::new()];
+    let [mut part, mut next] = buffers.each_mut();
+    part.extend(polygon.iter().map(|&p| Vertex { position: p.map(f64::from), error: 0.0 }));
     for axis in 0..K {
         if whole.min[axis] < cell.min[axis] {
-            part = cut(&part, axis, f64::from(cell.min[axis]) - pad, 1.0, pad);
+            cut(part, next, axis, f64::from(cell.min[axis]) - pad, 1.0, pad);
+            std::mem::swap(&mut part, &mut next);
         }
         if whole.max[axis] > cell.max[axis] {
-            part = cut(&part, axis, f64::from(cell.max[axis]) + pad, -1.0, pad);
+            cut(part, next, axis, f64::from(cell.max[axis]) + pad, -1.0, pad);
+            std::mem::swap(&mut part, &mut next);
         }
     }
     let bounds = part.iter().fold(Aabb::EMPTY, |bounds, v| bounds.union(&outward(v)));
@@ -53,21 +57,20 @@ fn pad<const K: usize>(whole: &Aabb<K>, cell: &Aabb<K>) -> f64 {
     f64::from(all.fold(0.0_f32, |m, x| m.max(x.abs()))) * (1.0 / (1u64 << 40) as f64)
 }
 
-/// The part of `polygon` where `side · position[axis] ≥ side · plane`.
+/// Makes `part` that of `polygon` where `side · position[axis] ≥ side · plane`.
 fn cut<const K: usize>(
     polygon: &Polygon<K>,
+    part: &mut Polygon<K>,
     axis: usize,
     plane: f64,
     side: f64,
     error: f64,
-) -> Polygon<K> {
-    let mut part = Polygon::new();
-    for (i, from) in polygon.iter().enumerate() {
-        let to = &polygon[(i + 1) % polygon.len()];
-        let (a, b) = (side * (from.position[axis] - plane), side * (to.position[axis] - plane));
-        if a >= 0.0 {
-            part.push(*from);
-        }
+) {
+    part.clear();
+    let Some(mut from) = polygon.last() else { return };
+    let mut a = side * (from.position[axis] - plane);
+    for to in polygon {
+        let b = side * (to.position[axis] - plane);
         if (a >= 0.0) != (b >= 0.0) {
             let share = a / (a - b);
             let mut position: [f64; K] = std::array::from_fn(|k| {
@@ -76,8 +79,11 @@ fn cut<const K: usize>(
             position[axis] = plane;
             part.push(Vertex { position, error });
         }
+        if b >= 0.0 {
+            part.push(*to);
+        }
+        (from, a) = (to, b);
     }
-    part
 }
 
 /// The box of one vertex and its error, rounded outward to f32.

@@ -1,14 +1,15 @@
 //! The canonical kd-tree, from which everything else is derived.
 
 mod cost;
+mod error;
 mod node;
 mod stats;
 mod validate;
 
 pub use cost::{CostModel, Termination};
+pub use error::TreeError;
 pub use node::{Node, NodeKind};
 pub use stats::TreeStats;
-pub use validate::TreeError;
 
 use crate::geometry::Aabb;
 

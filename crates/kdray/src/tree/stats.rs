@@ -1,7 +1,6 @@
 //! Figures of a tree.
 
-use super::CostModel;
-use super::{KdTree, NodeKind};
+use super::{CostModel, KdTree, NodeKind};
 
 /// What a tree is made of, and what it is expected to cost.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -112,5 +111,13 @@ mod tests {
         let found = tree.stats(2, &cost);
         assert!((found.sah_cost - expected.sah_cost).abs() < 1e-12);
         assert_eq!(TreeStats { sah_cost: expected.sah_cost, ..found }, expected);
+    }
+
+    #[test]
+    fn an_empty_tree_costs_nothing() {
+        let tree =
+            KdTree::<3> { bounds: Aabb::EMPTY, nodes: vec![Node::leaf(0, 0)], references: vec![] };
+        let stats = tree.stats(0, &CostModel::default());
+        assert_eq!((stats.sah_cost, stats.references_per_primitive), (0.0, 0.0));
     }
 }

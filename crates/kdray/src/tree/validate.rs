@@ -1,143 +1,8 @@
 //! What must be true of every tree.
 
-use super::{Cell, KdTree, MAX_DEPTH, NodeKind};
+use super::{Cell, KdTree, MAX_DEPTH, NodeKind, TreeError};
 use crate::geometry::Aabb;
 use crate::primitives::Primitives;
-use thiserror::Error;
-
-/// The first broken invariant that [`KdTree::validate`] found.
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
-pub enum TreeError {
-    /// The tree has no node at all.
-    #[error("the tree has no root")]
-    NoRoot,
-    /// The root's box has a NaN or infinite bound, or is empty although there are primitives.
-    #[error("the root's box is not finite")]
-    BadBounds,
-    /// Part of a primitive lies outside the root's box.
-    #[error("primitive {primitive} is not inside the root's box")]
-    OutsideBounds {
-        /// The primitive.
-        primitive: u32,
-    },
-    /// A child's index is past the last node.
-    #[error("node {node} has a child {child}, but there are only {nodes} nodes")]
-    ChildOutOfRange {
-        /// The parent.
-        node: u32,
-        /// The child that does not exist.
-        child: u32,
-        /// How many nodes there are.
-        nodes: usize,
-    },
-    /// A node does not stand where depth-first order has it: behind the last one of the subtree
-    /// before it.
-    #[error("node {node} stands where depth-first order has node {expected}")]
-    NotDepthFirst {
-        /// The node that a parent names.
-        node: u32,
-        /// The one that it should name.
-        expected: u32,
-    },
-    /// Nodes behind the last one that the root reaches.
-    #[error("only the first {reached} of {nodes} nodes belong to the tree")]
-    UnreachedNodes {
-        /// How many nodes the root reaches.
-        reached: usize,
-        /// How many there are.
-        nodes: usize,
-    },
-    /// A split perpendicular to an axis that the space does not have.
-    #[error("node {node} is cut on axis {axis} of a space of {dimensions}")]
-    BadAxis {
-        /// The node.
-        node: u32,
-        /// Its axis.
-        axis: usize,
-        /// K.
-        dimensions: usize,
-    },
-    /// A split that is not finite or lies outside its node's cell, so that the children do not
-    /// partition it.
-    #[error("node {node} is cut on axis {axis} at {split}, outside its cell")]
-    SplitOutsideCell {
-        /// The node.
-        node: u32,
-        /// The axis.
-        axis: usize,
-        /// Where the plane lies.
-        split: f32,
-    },
-    /// A node deeper than traversal stacks allow.
-    #[error("node {node} lies below {depth} splits; at most 64 are allowed")]
-    TooDeep {
-        /// The node.
-        node: u32,
-        /// How many splits lie above it.
-        depth: u32,
-    },
-    /// A leaf's list is not the one behind that of the leaf before it.
-    #[error("the list of leaf {node} starts at {first}, expected at {expected}")]
-    ListsDoNotTile {
-        /// The leaf.
-        node: u32,
-        /// Where its list starts.
-        first: u32,
-        /// Where the last leaf's ends.
-        expected: u32,
-    },
-    /// A leaf's list goes on past the last reference.
-    #[error("the list of leaf {node} goes on past the last of {references} references")]
-    ListOutOfRange {
-        /// The leaf.
-        node: u32,
-        /// How many references there are.
-        references: usize,
-    },
-    /// References behind the last leaf's list.
-    #[error("only the first {listed} of {references} references belong to a leaf")]
-    UnlistedReferences {
-        /// The end of the last leaf's list.
-        listed: usize,
-        /// How many references there are.
-        references: usize,
-    },
-    /// A leaf lists a primitive that does not exist.
-    #[error("leaf {node} lists primitive {primitive}, but there are only {count}")]
-    NoSuchPrimitive {
-        /// The leaf.
-        node: u32,
-        /// The id it lists.
-        primitive: u32,
-        /// How many primitives there are.
-        count: usize,
-    },
-    /// A leaf's ids do not rise: one is listed twice or out of order.
-    #[error("leaf {node} lists primitive {primitive} twice or out of order")]
-    NotAscending {
-        /// The leaf.
-        node: u32,
-        /// The id that is not above the one before it.
-        primitive: u32,
-    },
-    /// A leaf lists a primitive that has no part in its cell.
-    #[error("leaf {node} lists primitive {primitive}, which does not touch its cell")]
-    DoesNotTouch {
-        /// The leaf.
-        node: u32,
-        /// The primitive.
-        primitive: u32,
-    },
-    /// Part of a primitive lies in a leaf's cell, but neither that leaf nor another one whose cell
-    /// holds the part lists it.
-    #[error("leaf {node} does not list primitive {primitive}, which lies partly in its cell")]
-    Missing {
-        /// The leaf.
-        node: u32,
-        /// The primitive.
-        primitive: u32,
-    },
-}
 
 impl<const K: usize> KdTree<K> {
     /// Checks every invariant of a tree over `primitives`, and names the first that is broken:
@@ -149,17 +14,19 @@ impl<const K: usize> KdTree<K> {
     /// - every primitive lies in the root's box, and every point of it in the closed cell of some
     ///   leaf that lists it; no leaf lists a primitive that has no part in its closed cell.
     ///
-    /// The last two are checked up to four units in the last place of the largest coordinate,
-    /// because clipped bounds are rounded. They do not rely on how trees are built: each primitive
-    /// is clipped anew on its way down from the root. Time grows with the number of references.
+    /// The last two are checked up to two units in the last place of a coordinate, and 2^-38 of the
+    /// largest one, because clipped bounds are rounded. They do not rely on how trees are built:
+    /// each primitive is clipped anew on its way down from the root. Time grows with the number of
+    /// references.
     ///
     /// # Errors
     /// See [`TreeError`].
     pub fn validate(&self, primitives: &impl Primitives<K>) -> Result<(), TreeError> {
         let leaves = self.check_nodes()?;
         self.check_lists(&leaves, primitives.count())?;
-        let slack = self.check_bounds(primitives)?;
-        let check = ContentCheck { tree: self, primitives, slack };
+        self.check_bounds(primitives)?;
+        let largest = largest_coordinate(&self.bounds);
+        let check = ContentCheck { tree: self, primitives, largest };
         check.leaves_touch_what_they_list(&leaves)?;
         (0..primitives.count() as u32).try_for_each(|id| check.is_listed_everywhere(id))
     }
@@ -240,21 +107,16 @@ impl<const K: usize> KdTree<K> {
         }
     }
 
-    /// Whether the root's box holds all primitives; the slack of the checks that clip.
-    fn check_bounds(&self, primitives: &impl Primitives<K>) -> Result<f32, TreeError> {
+    /// Whether the root's box is finite and holds all primitives.
+    fn check_bounds(&self, primitives: &impl Primitives<K>) -> Result<(), TreeError> {
         for id in 0..primitives.count() as u32 {
             let bounds = primitives.bounds(id);
             if !bounds.is_empty() && self.bounds.union(&bounds) != self.bounds {
                 return Err(TreeError::OutsideBounds { primitive: id });
             }
         }
-        if self.bounds == Aabb::EMPTY {
-            return Ok(0.0);
-        }
-        let coordinates = self.bounds.min.iter().chain(&self.bounds.max);
-        let largest = coordinates.fold(0.0_f32, |largest, x| largest.max(x.abs()));
         let finite = self.bounds.min.iter().chain(&self.bounds.max).all(|x| x.is_finite());
-        if finite { Ok(largest * 4.0 * f32::EPSILON) } else { Err(TreeError::BadBounds) }
+        if finite || self.bounds == Aabb::EMPTY { Ok(()) } else { Err(TreeError::BadBounds) }
     }
 }
 
@@ -262,15 +124,23 @@ impl<const K: usize> KdTree<K> {
 struct ContentCheck<'a, P, const K: usize> {
     tree: &'a KdTree<K>,
     primitives: &'a P,
-    slack: f32,
+    /// The largest absolute coordinate.
+    largest: f32,
+}
+
+/// How far bounds at `x` that were clipped among coordinates up to `largest` may lie from the true
+/// ones, with room to spare: they are computed in f64 and rounded to f32.
+fn slack(x: f32, largest: f32) -> f32 {
+    const IN_F64: f32 = 1.0 / (1_u64 << 38) as f32;
+    2.0 * f32::EPSILON * x.abs() + IN_F64 * largest + f32::from_bits(2)
 }
 
 impl<P: Primitives<K>, const K: usize> ContentCheck<'_, P, K> {
     fn leaves_touch_what_they_list(&self, leaves: &[Cell<K>]) -> Result<(), TreeError> {
         for Cell { node, bounds, .. } in leaves {
             let grown = Aabb {
-                min: bounds.min.map(|x| x - self.slack),
-                max: bounds.max.map(|x| x + self.slack),
+                min: bounds.min.map(|x| x - slack(x, self.largest)),
+                max: bounds.max.map(|x| x + slack(x, self.largest)),
             };
             for &primitive in self.tree.leaf_primitives(*node) {
                 if self.primitives.clipped_bounds(primitive, &grown).is_none() {
@@ -284,15 +154,25 @@ impl<P: Primitives<K>, const K: usize> ContentCheck<'_, P, K> {
     /// Whether each part of the primitive lies in the cell of a leaf that lists it.
     fn is_listed_everywhere(&self, id: u32) -> Result<(), TreeError> {
         match self.primitives.clipped_bounds(id, &self.tree.bounds) {
-            Some(part) => self.is_part_listed(id, part, vec![0]),
+            Some(part) => self.is_part_listed(id, part, vec![0], None),
             None => Ok(()),
         }
     }
 
-    /// The same for its part in the box `part`, which lies in the cells of all `nodes` up to the
-    /// slack. Goes down in one of them after the other; where a plane cuts the part, both pieces
-    /// are looked at apart; a part in the plane lies in both children, either of which may list it.
-    fn is_part_listed(&self, id: u32, part: Aabb<K>, mut nodes: Vec<u32>) -> Result<(), TreeError> {
+    /// The same for its part in the box `part`, which lies in the cells of all `nodes`. Goes down
+    /// in one of them after the other. Where a plane cuts the part, the pieces are looked at apart;
+    /// a part in the plane lies in both children, either of which may list it.
+    ///
+    /// A part that is missed is looked for once more, with slack for coordinates up to `largest`:
+    /// it may be there by a rounding error only. Then a part that sticks out of a cell by less than
+    /// the slack lies in it, too.
+    fn is_part_listed(
+        &self,
+        id: u32,
+        part: Aabb<K>,
+        mut nodes: Vec<u32>,
+        largest: Option<f32>,
+    ) -> Result<(), TreeError> {
         let mut leaf = 0;
         while let Some(node) = nodes.pop() {
             let NodeKind::Inner { axis, split, above } = self.tree.nodes[node as usize].kind()
@@ -303,21 +183,261 @@ impl<P: Primitives<K>, const K: usize> ContentCheck<'_, P, K> {
                 leaf = node;
                 continue;
             };
-            let fits_below = part.max[axis] <= split + self.slack;
-            let fits_above = part.min[axis] >= split - self.slack;
-            if !fits_below && !fits_above {
+            let slack = largest.map_or(0.0, |largest| slack(split, largest));
+            let lies_below = part.max[axis] - split <= slack;
+            let lies_above = split - part.min[axis] <= slack;
+            if (part.min[axis] < split && split < part.max[axis]) && !(lies_below && lies_above) {
                 nodes.push(node);
                 let (below, above) = part.split(axis, split);
-                for piece in [below, above] {
-                    if let Some(shape) = self.primitives.clipped_bounds(id, &piece) {
-                        self.is_part_listed(id, shape.intersection(&piece), nodes.clone())?;
+                return [below, above].into_iter().try_for_each(|piece| {
+                    match self.primitives.clipped_bounds(id, &piece) {
+                        Some(shape) => {
+                            let part = shape.intersection(&piece);
+                            self.is_part_listed(id, part, nodes.clone(), largest)
+                        }
+                        None => Ok(()),
                     }
-                }
-                return Ok(());
+                });
             }
-            nodes.extend(fits_above.then_some(above));
-            nodes.extend(fits_below.then_some(node + 1));
+            nodes.extend(lies_above.then_some(above));
+            nodes.extend(lies_below.then_some(node + 1));
         }
-        Err(TreeError::Missing { node: leaf, primitive: id })
+        let missing = TreeError::Missing { node: leaf, primitive: id };
+        if largest.is_some() {
+            return Err(missing);
+        }
+        let largest = largest_coordinate(&self.primitives.bounds(id));
+        self.is_part_listed(id, part, vec![0], Some(largest)).map_err(|_| missing)
+    }
+}
+
+fn largest_coordinate<const K: usize>(aabb: &Aabb<K>) -> f32 {
+    aabb.min.iter().chain(&aabb.max).fold(0.0, |largest, x| largest.max(x.abs()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::primitives::{Segments, TriangleMesh};
+    use crate::tree::Node;
+    use crate::{BuildOptions, Strategy};
+    use rand::{RngExt, SeedableRng};
+
+    fn soup(snapped: bool) -> TriangleMesh {
+        let mut random = rand_pcg::Pcg64::seed_from_u64(1);
+        let snap = |x: f32| if snapped { (x * 4.0).round() / 4.0 } else { x };
+        let triangles = (0..60).map(|_| {
+            let center = [0; 3].map(|_| random.random::<f32>());
+            [0; 3].map(|_| center.map(|x| snap(x + 0.6 * random.random::<f32>())))
+        });
+        TriangleMesh::from_soup(triangles).unwrap()
+    }
+
+    fn tree(mesh: &TriangleMesh, strategy: Strategy) -> KdTree {
+        let tree = KdTree::build(mesh, &BuildOptions::for_strategy(strategy)).unwrap();
+        assert_eq!(tree.validate(mesh), Ok(()));
+        assert!(tree.nodes.len() > 20);
+        tree
+    }
+
+    /// The error of a tree after `change`.
+    fn broken(change: impl FnOnce(&mut KdTree)) -> TreeError {
+        let mesh = soup(false);
+        let mut tree = tree(&mesh, Strategy::Sah);
+        change(&mut tree);
+        tree.validate(&mesh).unwrap_err()
+    }
+
+    /// The tree with other lists in its leaves.
+    fn with_lists(tree: &KdTree, list: impl Fn(u32) -> Vec<u32>) -> KdTree {
+        let mut changed = KdTree { references: Vec::new(), ..tree.clone() };
+        for node in 0..tree.nodes.len() as u32 {
+            if let NodeKind::Leaf { .. } = tree.nodes[node as usize].kind() {
+                let list = list(node);
+                let first = changed.references.len() as u32;
+                changed.nodes[node as usize] = Node::leaf(first, list.len() as u32);
+                changed.references.extend(list);
+            }
+        }
+        changed
+    }
+
+    /// All pairs of a leaf and a primitive that it lists.
+    fn listed(tree: &KdTree) -> Vec<(u32, u32)> {
+        let nodes = 0..tree.nodes.len() as u32;
+        nodes.flat_map(|n| tree.leaf_primitives(n).iter().map(move |&id| (n, id))).collect()
+    }
+
+    fn root(tree: &KdTree) -> (usize, f32, u32) {
+        let NodeKind::Inner { axis, split, above } = tree.nodes[0].kind() else {
+            panic!("the root is a leaf")
+        };
+        (axis, split, above)
+    }
+
+    #[test]
+    fn nodes_out_of_place_are_named() {
+        assert_eq!(broken(|tree| tree.nodes.clear()), TreeError::NoRoot);
+        let error = broken(|tree| {
+            let (axis, split, _) = root(tree);
+            tree.nodes[0] = Node::inner(axis, split, tree.nodes.len() as u32);
+        });
+        assert!(matches!(error, TreeError::ChildOutOfRange { node: 0, .. }), "{error}");
+        let error = broken(|tree| {
+            let (axis, split, above) = root(tree);
+            tree.nodes[0] = Node::inner(axis, split, above + 1);
+        });
+        assert!(matches!(error, TreeError::NotDepthFirst { .. }), "{error}");
+        let error = broken(|tree| {
+            let (axis, split, _) = root(tree);
+            tree.nodes[0] = Node::inner(axis, split, 0);
+        });
+        assert!(matches!(error, TreeError::NotDepthFirst { node: 0, .. }), "a cycle: {error}");
+        let error = broken(|tree| tree.nodes.push(Node::leaf(0, 0)));
+        assert!(matches!(error, TreeError::UnreachedNodes { .. }), "{error}");
+    }
+
+    #[test]
+    fn cells_that_do_not_partition_their_parents_are_named() {
+        for outside in [100.0, -100.0, f32::NAN, f32::INFINITY] {
+            let error = broken(|tree| {
+                let (axis, _, above) = root(tree);
+                tree.nodes[0] = Node::inner(axis, outside, above);
+            });
+            assert!(matches!(error, TreeError::SplitOutsideCell { node: 0, .. }), "{error}");
+        }
+        let error = broken(|tree| tree.bounds.max[0] = f32::INFINITY);
+        assert_eq!(error, TreeError::BadBounds);
+        let error = broken(|tree| *tree = KdTree { bounds: Aabb::EMPTY, ..tree.clone() });
+        assert!(matches!(error, TreeError::SplitOutsideCell { node: 0, .. }), "{error}");
+    }
+
+    #[test]
+    fn a_root_that_leaves_out_a_primitive_is_named() {
+        let segments = Segments::new(vec![[[0.0, 0.0], [1.0, 1.0]], [[1.0, 0.0], [3.0, 0.0]]]);
+        let bounds = Aabb { min: [0.0, 0.0], max: [2.0, 1.0] };
+        let tree = KdTree { bounds, nodes: vec![Node::leaf(0, 2)], references: vec![0, 1] };
+        let expected = TreeError::OutsideBounds { primitive: 1 };
+        assert_eq!(tree.validate(&segments.unwrap()), Err(expected));
+    }
+
+    #[test]
+    fn an_axis_that_the_space_lacks_is_named() {
+        let segments = Segments::new(vec![[[0.0, 0.0], [1.0, 1.0]]]).unwrap();
+        let bounds = Aabb { min: [0.0; 2], max: [1.0; 2] };
+        let nodes = vec![Node::inner(2, 0.5, 2), Node::leaf(0, 1), Node::leaf(1, 1)];
+        let tree = KdTree { bounds, nodes, references: vec![0, 0] };
+        let expected = TreeError::BadAxis { node: 0, axis: 2, dimensions: 2 };
+        assert_eq!(tree.validate(&segments), Err(expected));
+    }
+
+    #[test]
+    fn a_tree_deeper_than_the_stack_is_named() {
+        let chain = |splits: u32| {
+            let inner = (0..splits).map(|i| Node::inner(0, 0.0, 2 * splits - i));
+            let nodes = inner.chain((0..=splits).map(|_| Node::leaf(0, 0))).collect();
+            KdTree { bounds: Aabb { min: [0.0; 3], max: [1.0; 3] }, nodes, references: vec![] }
+        };
+        let empty = TriangleMesh::new(vec![], vec![]).unwrap();
+        assert_eq!(chain(64).validate(&empty), Ok(()));
+        let expected = TreeError::TooDeep { node: 65, depth: 65 };
+        assert_eq!(chain(65).validate(&empty), Err(expected));
+    }
+
+    #[test]
+    fn lists_that_do_not_tile_the_references_are_named() {
+        let first_leaf = |tree: &KdTree| {
+            let is_leaf = |n: &Node| matches!(n.kind(), NodeKind::Leaf { count, .. } if count > 0);
+            tree.nodes.iter().position(is_leaf).unwrap()
+        };
+        let error = broken(|tree| {
+            let leaf = first_leaf(tree);
+            tree.nodes[leaf] = Node::leaf(1, 1);
+        });
+        assert!(matches!(error, TreeError::ListsDoNotTile { first: 1, expected: 0, .. }));
+        let error = broken(|tree| {
+            let leaf = first_leaf(tree);
+            tree.nodes[leaf] = Node::leaf(0, 1 << 29);
+        });
+        assert!(matches!(error, TreeError::ListOutOfRange { .. }), "{error}");
+        let error = broken(|tree| tree.references.push(0));
+        assert!(matches!(error, TreeError::UnlistedReferences { .. }), "{error}");
+        let error = broken(|tree| tree.references[0] = 60);
+        assert!(matches!(error, TreeError::NoSuchPrimitive { primitive: 60, count: 60, .. }));
+        let error = broken(|tree| {
+            *tree = with_lists(tree, |leaf| tree.leaf_primitives(leaf).repeat(2));
+        });
+        assert!(matches!(error, TreeError::NotAscending { .. }), "{error}");
+    }
+
+    #[test]
+    fn every_single_reference_is_missed() {
+        let mesh = soup(false);
+        for strategy in [Strategy::Sah, Strategy::Middle] {
+            let tree = tree(&mesh, strategy);
+            for (node, primitive) in listed(&tree) {
+                let keep = |leaf: u32, id: u32| (leaf, id) != (node, primitive);
+                let lists = |leaf| {
+                    tree.leaf_primitives(leaf)
+                        .iter()
+                        .copied()
+                        .filter(|&id| keep(leaf, id))
+                        .collect()
+                };
+                let found = with_lists(&tree, lists).validate(&mesh);
+                assert_eq!(found, Err(TreeError::Missing { node, primitive }));
+            }
+        }
+    }
+
+    #[test]
+    fn primitives_in_split_planes_are_missed_if_both_sides_lack_them() {
+        let mesh = soup(true);
+        let tree = tree(&mesh, Strategy::Sah);
+        let count = listed(&tree).len();
+        let caught = listed(&tree).into_iter().filter(|&(node, primitive)| {
+            let keep = |leaf: u32, id: u32| (leaf, id) != (node, primitive);
+            let lists = |leaf| {
+                tree.leaf_primitives(leaf).iter().copied().filter(|&id| keep(leaf, id)).collect()
+            };
+            with_lists(&tree, lists).validate(&mesh).is_err()
+        });
+        // The others touch only the leaf's boundary, where a neighbour lists them too.
+        let caught = caught.count();
+        assert!(caught > count / 2, "{caught} of {count}");
+        for primitive in 0..60 {
+            let others = |leaf| {
+                let list = tree.leaf_primitives(leaf).iter().copied();
+                list.filter(|&id| id != primitive).collect()
+            };
+            let error = with_lists(&tree, others).validate(&mesh).unwrap_err();
+            assert!(matches!(error, TreeError::Missing { primitive: id, .. } if id == primitive));
+        }
+    }
+
+    #[test]
+    fn a_reference_too_many_is_named() {
+        let mesh = soup(false);
+        let tree = tree(&mesh, Strategy::Sah);
+        let everywhere = |_| (0..60).collect();
+        let error = with_lists(&tree, everywhere).validate(&mesh).unwrap_err();
+        assert!(matches!(error, TreeError::DoesNotTouch { .. }), "{error}");
+    }
+
+    #[test]
+    fn a_plane_moved_aside_is_named() {
+        for by in [-0.02, 0.02] {
+            let error = broken(|tree| {
+                let (axis, split, above) = root(tree);
+                tree.nodes[0] = Node::inner(axis, split + by, above);
+            });
+            let expected = matches!(
+                error,
+                TreeError::Missing { .. }
+                    | TreeError::DoesNotTouch { .. }
+                    | TreeError::SplitOutsideCell { .. }
+            );
+            assert!(expected, "{error}");
+        }
     }
 }

@@ -10,12 +10,15 @@ use rand_pcg::Pcg64;
 pub(crate) const STRATEGIES: [Strategy; 4] =
     [Strategy::Middle, Strategy::Median, Strategy::RoundRobin, Strategy::Sah];
 
-/// For each strategy its good settings, and the hardest: a leaf size of one.
+/// For each strategy its good settings, and the hardest: a leaf size of one, which is good for SAH.
 pub(crate) fn all_options() -> Vec<BuildOptions> {
     STRATEGIES
         .into_iter()
         .map(BuildOptions::for_strategy)
-        .flat_map(|options| [options, BuildOptions { leaf_size: 1, ..options }])
+        .flat_map(|options| match options.strategy {
+            Strategy::Sah => vec![options],
+            _ => vec![options, BuildOptions { leaf_size: 1, ..options }],
+        })
         .collect()
 }
 
