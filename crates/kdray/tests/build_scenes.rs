@@ -7,6 +7,7 @@ use kdray::{BuildOptions, KdTree, TriangleMesh};
 use std::path::PathBuf;
 
 /// The uncompressed meshes of the scenes folder, if there is one.
+#[expect(clippy::print_stdout, reason = "a test says that it was skipped")]
 fn scenes() -> Vec<PathBuf> {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/scenes");
     let Ok(entries) = std::fs::read_dir(folder) else {
