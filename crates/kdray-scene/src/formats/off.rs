@@ -26,7 +26,7 @@ pub(super) fn read(bytes: Box<dyn Read + '_>, request: &Request<'_>) -> Result<M
         let place = || element("face", index);
         lines.row(&mut row, 1, place)?;
         let count = row[0].value;
-        if count.fract() != 0.0 || !(0.0..=f64::from(u32::MAX)).contains(&count) {
+        if count.fract() != 0.0 || !(0.0..=MAX_CORNERS).contains(&count) {
             return Err(request.invalid(place(), format!("a face of {count} corners")));
         }
         let count = count as usize;
@@ -43,6 +43,9 @@ pub(super) fn read(bytes: Box<dyn Read + '_>, request: &Request<'_>) -> Result<M
     }
     Ok(builder.finish())
 }
+
+/// The most corners of a face.
+const MAX_CORNERS: f64 = (1 << 26) as f64;
 
 fn element(name: &str, index: u64) -> Place {
     Place::Element { name: name.to_owned(), index }

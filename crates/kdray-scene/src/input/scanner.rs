@@ -141,21 +141,26 @@ impl<'a> Scanner<'a> {
         let mut any = false;
         while let Some(byte) = self.peek()? {
             any = true;
-            self.bump(byte);
-            match byte {
-                b'\n' => break,
-                b'\r' => {
-                    match self.peek()? {
-                        Some(b'\n') => self.bump(b'\n'),
-                        _ => self.line += 1,
-                    }
-                    break;
-                }
-                _ if line.len() == MAX_LINE => {
-                    return Err(self.error_in_line("a line without end"));
-                }
-                _ => line.push(byte),
+            if byte == b'\n' {
+                self.bump(byte);
+                break;
             }
+            if byte == b'\r' {
+                self.start += 1;
+                if self.peek()? == Some(b'\n') {
+                    self.start += 1;
+                }
+                self.line += 1;
+                break;
+            }
+            if line.len() > MAX_LINE {
+                return Err(self.error_in_line("a line without end"));
+            }
+            let rest = &self.buffer[self.start..self.end];
+            let end = rest.iter().position(|&byte| byte == b'\n' || byte == b'\r');
+            let end = end.unwrap_or(rest.len());
+            line.extend_from_slice(&rest[..end]);
+            self.start += end;
         }
         Ok(any)
     }

@@ -92,6 +92,8 @@ struct Outline<'a> {
     next: Vec<usize>,
     /// Corners that do not turn left: only they can lie in the way of an ear.
     blockers: Vec<usize>,
+    /// Whether a corner is in that list.
+    is_blocker: Vec<bool>,
     /// Whether a corner is an ear, as far as known. It changes only with its neighbours.
     ear: Vec<Option<bool>>,
     left: usize,
@@ -106,9 +108,10 @@ impl<'a> Outline<'a> {
         let n = flat.len();
         let previous: Vec<usize> = (0..n).map(|i| (i + n - 1) % n).collect();
         let next: Vec<usize> = (0..n).map(|i| (i + 1) % n).collect();
-        let mut outline =
-            Self { flat, previous, next, blockers: Vec::new(), ear: vec![None; n], left: n };
-        outline.blockers = (0..n).filter(|&i| outline.turn_at(i) <= 0.0).collect();
+        let (blockers, is_blocker) = (Vec::new(), vec![false; n]);
+        let ear = vec![None; n];
+        let mut outline = Self { flat, previous, next, blockers, is_blocker, ear, left: n };
+        (0..n).for_each(|corner| outline.note_blocker(corner));
         outline
     }
 
@@ -165,11 +168,15 @@ impl<'a> Outline<'a> {
         if turn(self.flat, triangle) <= 0.0 {
             return false;
         }
+        let [low, high] = bounds(triangle.map(|i| self.flat[i]));
         let mut i = 0;
         while let Some(&blocker) = self.blockers.get(i) {
-            if self.next[blocker] == CUT || self.turn_at(blocker) > 0.0 {
+            let [x, y] = self.flat[blocker];
+            let is_near = x >= low[0] && x <= high[0] && y >= low[1] && y <= high[1];
+            if self.next[blocker] == CUT || is_near && self.turn_at(blocker) > 0.0 {
                 self.blockers.swap_remove(i);
-            } else if is_inside(self.flat, triangle, blocker) {
+                self.is_blocker[blocker] = false;
+            } else if is_near && is_inside(self.flat, triangle, blocker) {
                 return false;
             } else {
                 i += 1;
@@ -188,9 +195,14 @@ impl<'a> Outline<'a> {
         for neighbour in [before, after] {
             self.ear[neighbour] = None;
             // A corner can also become straight or turn right where outlines touch themselves.
-            if self.turn_at(neighbour) <= 0.0 && !self.blockers.contains(&neighbour) {
-                self.blockers.push(neighbour);
-            }
+            self.note_blocker(neighbour);
+        }
+    }
+
+    fn note_blocker(&mut self, corner: usize) {
+        if !self.is_blocker[corner] && self.turn_at(corner) <= 0.0 {
+            self.is_blocker[corner] = true;
+            self.blockers.push(corner);
         }
     }
 
@@ -199,6 +211,12 @@ impl<'a> Outline<'a> {
         let corners = std::iter::successors(Some(start), |&corner| Some(self.next[corner]));
         corners.take(self.left).find(|&corner| self.turn_at(corner) == 0.0)
     }
+}
+
+fn bounds([a, b, c]: [[f64; 2]; 3]) -> [[f64; 2]; 2] {
+    let low = [0, 1].map(|axis| a[axis].min(b[axis]).min(c[axis]));
+    let high = [0, 1].map(|axis| a[axis].max(b[axis]).max(c[axis]));
+    [low, high]
 }
 
 /// Marks corners that have been cut off.

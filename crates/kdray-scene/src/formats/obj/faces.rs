@@ -14,6 +14,8 @@ pub(super) struct Faces {
     pub(super) colors: Vec<[f32; 3]>,
     waiting: Vec<Face>,
     missing_attributes: u64,
+    /// Kept from one face to the next for their memory.
+    indices: Vec<Indices>,
     corners: Vec<Corner>,
 }
 
@@ -50,27 +52,31 @@ impl Faces {
                 request.invalid(Place::Line(line), reason)
             })
         };
-        let corners = words.split_whitespace().map(corner).collect::<Result<Vec<_>, _>>()?;
+        let mut corners = std::mem::take(&mut self.indices);
+        corners.clear();
+        for word in words.split_whitespace() {
+            corners.push(corner(word)?);
+        }
         let is_known = |index: i64, count: usize| index < count as i64;
         let all_known = corners.iter().all(|corner| {
             is_known(corner.vertex, counts[0])
                 && corner.uv.is_none_or(|index| is_known(index, counts[1]))
                 && corner.normal.is_none_or(|index| is_known(index, counts[2]))
         });
-        let face = Face { line, material: builder.material, corners };
         if all_known {
-            self.build(&face, builder)
+            self.build(line, &corners, builder)?;
+            self.indices = corners;
         } else {
-            self.waiting.push(face);
-            Ok(())
+            self.waiting.push(Face { line, material: builder.material, corners });
         }
+        Ok(())
     }
 
     /// Adds the faces that have waited.
     pub(super) fn finish(&mut self, builder: &mut MeshBuilder<'_>) -> Result<(), LoadError> {
         for face in std::mem::take(&mut self.waiting) {
             builder.material = face.material;
-            self.build(&face, builder)?;
+            self.build(face.line, &face.corners, builder)?;
         }
         if self.missing_attributes > 0 {
             let count = self.missing_attributes;
@@ -79,11 +85,16 @@ impl Faces {
         Ok(())
     }
 
-    fn build(&mut self, face: &Face, builder: &mut MeshBuilder<'_>) -> Result<(), LoadError> {
+    fn build(
+        &mut self,
+        line: u64,
+        face: &[Indices],
+        builder: &mut MeshBuilder<'_>,
+    ) -> Result<(), LoadError> {
         let mut corners = std::mem::take(&mut self.corners);
         corners.clear();
-        corners.extend(face.corners.iter().map(|&corner| self.corner(corner)));
-        let added = builder.polygon(&corners, || Place::Line(face.line));
+        corners.extend(face.iter().map(|&corner| self.corner(corner)));
+        let added = builder.polygon(&corners, || Place::Line(line));
         self.corners = corners;
         added
     }

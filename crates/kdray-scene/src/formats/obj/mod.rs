@@ -13,6 +13,7 @@ use crate::mesh::MeshBuilder;
 use crate::{LoadError, Model, Place, number};
 use faces::Faces;
 use materials::Materials;
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::io::Read;
 
@@ -22,7 +23,8 @@ pub(super) fn read(
     request: &Request<'_>,
 ) -> Result<Model, LoadError> {
     let bytes = utf8(bytes, start).map_err(|error| request.read_error(error))?;
-    let mut lines = Lines { scanner: Scanner::new(bytes, request), line: Vec::new() };
+    let mut lines =
+        Lines { scanner: Scanner::new(bytes, request), line: Vec::new(), more: Vec::new() };
     let mut reader = Reader {
         request,
         builder: MeshBuilder::new(request),
@@ -42,6 +44,8 @@ pub(super) fn read(
 struct Lines<'a> {
     scanner: Scanner<'a>,
     line: Vec<u8>,
+    /// The line to be joined.
+    more: Vec<u8>,
 }
 
 /// The longest line after joining.
@@ -49,24 +53,23 @@ const MAX_JOINED: usize = 64 << 20;
 
 impl Lines<'_> {
     /// The next line and its number.
-    fn next(&mut self) -> Result<Option<(u64, String)>, LoadError> {
+    fn next(&mut self) -> Result<Option<(u64, Cow<'_, str>)>, LoadError> {
         let number = self.scanner.line_number();
         if !self.scanner.line(&mut self.line)? {
             return Ok(None);
         }
-        let mut text = String::from_utf8_lossy(&self.line).into_owned();
-        while text.ends_with('\\') {
-            text.pop();
-            text.push(' ');
-            if text.len() > MAX_JOINED {
+        while self.line.last() == Some(&b'\\') {
+            self.line.pop();
+            self.line.push(b' ');
+            if self.line.len() > MAX_JOINED {
                 return Err(self.scanner.error_in_line("lines joined without end"));
             }
-            if !self.scanner.line(&mut self.line)? {
+            if !self.scanner.line(&mut self.more)? {
                 break;
             }
-            text.push_str(&String::from_utf8_lossy(&self.line));
+            self.line.append(&mut self.more);
         }
-        Ok(Some((number, text)))
+        Ok(Some((number, String::from_utf8_lossy(&self.line))))
     }
 }
 

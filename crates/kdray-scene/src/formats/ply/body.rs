@@ -45,6 +45,9 @@ impl Row {
     }
 }
 
+/// The longest list that is read.
+const MAX_LIST: f64 = (1 << 26) as f64;
+
 /// Reads rows.
 pub(super) struct Values<'a> {
     scanner: Scanner<'a>,
@@ -88,7 +91,7 @@ impl<'a> Values<'a> {
                 continue;
             };
             let length = self.value(length, element, index)?;
-            if length < 0.0 || length.fract() != 0.0 || length > f64::from(u32::MAX) {
+            if length < 0.0 || length.fract() != 0.0 || length > MAX_LIST {
                 let reason = format!("the list {} has length {length}", property.name);
                 return Err(self.error(element, index, &reason));
             }
