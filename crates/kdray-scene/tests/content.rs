@@ -241,6 +241,27 @@ fn gltf_mirrors_turn_triangles_over() {
 }
 
 #[test]
+fn gltf_skins_follow_their_joints_and_not_their_node() {
+    let weights = "%ff%00%00%00".repeat(3);
+    let model = gltf(&[
+        ("{\"mesh\":0}", r#"{"mesh":0,"skin":0,"translation":[100,0,0]},{"translation":[0,5,0]}"#),
+        ("\"nodes\":[0]", "\"nodes\":[0,1]"),
+        ("\"scenes\"", "\"skins\":[{\"joints\":[1]}],\"scenes\""),
+        ("\"POSITION\":0", "\"POSITION\":0,\"JOINTS_0\":1,\"WEIGHTS_0\":2"),
+        (
+            "\"type\":\"VEC3\"}",
+            r#""type":"VEC3"},{"componentType":5121,"count":3,"type":"VEC4","sparse":{"count":0,
+            "indices":{"bufferView":0,"componentType":5121},"values":{"bufferView":0}}},
+            {"bufferView":1,"componentType":5121,"normalized":true,"count":3,"type":"VEC4"}"#,
+        ),
+        ("\"byteLength\":36}],", "\"byteLength\":36},{\"buffer\":1,\"byteLength\":12}],"),
+        ("\"}]}", &format!("\"}},{{\"byteLength\":12,\"uri\":\"data:;,{weights}\"}}]}}")),
+    ]);
+    let expected = [[0.0, 5.0, 0.0], [1.0, 5.0, 0.0], [0.0, 6.0, 0.0]];
+    assert_eq!(model.unwrap().vertices, expected);
+}
+
+#[test]
 fn gltf_says_what_is_wrong_and_where() {
     for (replace, place, reason) in [
         (("\"nodes\":[0]", "\"nodes\":[0,0]"), "nodes[0]", "reached twice"),
