@@ -51,7 +51,8 @@ impl Film {
     /// How many bytes the layers take.
     pub(crate) fn bytes(options: &RenderOptions) -> u128 {
         let channels: usize = plans(options).iter().map(|(_, channels)| channels.len()).sum();
-        4 * channels as u128 * options.width as u128 * options.height as u128
+        let pixels = (options.width as u128).saturating_mul(options.height as u128);
+        pixels.saturating_mul(4 * channels as u128)
     }
 
     /// An empty film; `None` if there is not the memory for it.

@@ -38,7 +38,7 @@ pub fn default_lights(camera: &Camera) -> Vec<Light> {
     let forward = (DVec3::from(camera.look_at) - DVec3::from(camera.eye)).normalize_or(-DVec3::Z);
     let right = forward.cross(camera.up.into()).normalize_or(DVec3::X);
     let up = right.cross(forward);
-    let direction = forward + 0.5 * right - 0.8 * up;
+    let direction = forward + 0.25 * right - 0.5 * up;
     vec![Light::Directional { direction: direction.into(), irradiance: [2.6; 3] }]
 }
 

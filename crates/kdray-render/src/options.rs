@@ -84,7 +84,7 @@ impl Default for RenderOptions {
             all_layers: false,
             seed: 0,
             background: Background::default(),
-            ambient: [0.2, 0.22, 0.26],
+            ambient: [0.16, 0.18, 0.215],
             ambient_rays: 1,
             occlusion_distance: None,
             light_samples: 2,
@@ -96,7 +96,7 @@ impl Default for RenderOptions {
 
 impl Default for Background {
     fn default() -> Self {
-        Self::Gradient { horizon: [0.75, 0.82, 0.9], zenith: [0.18, 0.32, 0.62] }
+        Self::Gradient { horizon: [0.82, 0.88, 0.95], zenith: [0.14, 0.3, 0.68] }
     }
 }
 

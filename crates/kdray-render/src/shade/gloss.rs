@@ -43,10 +43,14 @@ impl Gloss {
         self.fresnel(self.viewer.dot(half)) * (distribution * visibility) as f32
     }
 
-    /// Schlick's approximation to Fresnel's equations, at the cosine of the angle of incidence.
+    /// Schlick's approximation to Fresnel's equations, at the cosine of the angle of incidence. It
+    /// rises to 1, but below a reflectance of 2 %, which no real body has, only to 50 times that:
+    /// a material of no specular reflection has none at grazing angles either (Lagarde and de
+    /// Rousiers, *Moving Frostbite to PBR*, 2014).
     pub(crate) fn fresnel(&self, cos: f64) -> Vec3 {
         let grazing = (1.0 - cos.clamp(0.0, 1.0)).powi(5) as f32;
-        self.f0 + (Vec3::ONE - self.f0).max(Vec3::ZERO) * grazing
+        let f90 = (self.f0 * 50.0).min(Vec3::ONE);
+        self.f0 + (f90 - self.f0).max(Vec3::ZERO) * grazing
     }
 
     /// A direction to mirror light from, and what it is weighed with. Facets are drawn from those

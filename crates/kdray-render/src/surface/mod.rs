@@ -4,4 +4,7 @@ mod offset;
 mod point;
 mod texture;
 
+#[cfg(test)]
+mod tests;
+
 pub(crate) use point::{Surface, opacity};

@@ -5,13 +5,13 @@ use super::menger::menger_sponge;
 use super::patterns::{bands, tiles};
 use super::sphere::{sphere, sphereflake};
 use super::torus_knot::torus_knot;
-use crate::{Camera, Cone, Light, Material, Model, Projection};
+use crate::{Camera, Light, Material, Model, Projection};
 use glam::{DAffine3, DQuat, DVec3, Vec3};
-use std::f64::consts::PI;
+use std::f64::consts::FRAC_PI_2;
 
 /// The scene that is rendered when none is named, with its own camera and lights: a knot of
 /// polished gold, a mirror ball, a ball of glass, Menger's sponge and a sphereflake on a tiled
-/// floor, under a warm soft lamp and a cool hard one. About 420,000 triangles, one metre the unit.
+/// terrace, under the sun and a warm soft lamp. About 420,000 triangles, one metre the unit.
 pub fn showcase() -> Model {
     let mut scene = Assembly::default();
     add_floor(&mut scene);
@@ -29,26 +29,22 @@ pub fn showcase() -> Model {
 fn camera() -> Camera {
     Camera {
         name: "showcase".into(),
-        eye: [0.35, 2.15, 8.6],
-        look_at: [0.05, 0.92, 0.0],
+        eye: [0.5, 2.3, 8.6],
+        look_at: [0.04, 0.98, 0.0],
         up: [0.0, 1.0, 0.0],
-        projection: Projection::Perspective { vfov_degrees: 28.0 },
+        projection: Projection::Perspective { vfov_degrees: 25.5 },
     }
 }
 
 fn lights() -> [Light; 2] {
     let soft = Light::Rectangle {
-        corner: [-5.6, 4.2, 1.0],
+        corner: [-5.6, 3.6, 1.2],
         edge_u: [0.0, 0.0, 3.0],
         edge_v: [1.6, 1.6, 0.0],
-        radiance: [11.5, 9.0, 6.4],
+        radiance: [9.5, 7.2, 5.0],
     };
-    let hard = Light::Point {
-        position: [5.5, 6.0, 3.5],
-        intensity: [44.0, 48.0, 56.0],
-        cone: Some(Cone { direction: [-5.5, -5.6, -3.9], inner_angle: 0.42, outer_angle: 0.6 }),
-    };
-    [soft, hard]
+    let sun = Light::Directional { direction: [-0.8, -0.8, -0.42], irradiance: [2.5, 2.3, 2.0] };
+    [soft, sun]
 }
 
 fn at(x: f64, y: f64, z: f64, scale: f64) -> DAffine3 {
@@ -85,28 +81,58 @@ fn mirror(name: &str, color: [f32; 3]) -> Material {
     Material { mirror: color, ..matt(name, [0.02; 3], 0.1) }
 }
 
+/// A square terrace of tiles in a plain that reaches to the horizon.
 fn add_floor(scene: &mut Assembly) {
-    const SIDE: f64 = 60.0;
-    /// Eight tiles to a texture.
     const TILE: f64 = 0.62;
-    let texture = tiles(Vec3::new(0.78, 0.74, 0.68), Vec3::new(0.16, 0.2, 0.25));
+    const TERRACE: f64 = 7.0 * TILE;
+    const STEP: f64 = 0.12;
+    const HORIZON: f64 = 120.0;
+    let texture = tiles(Vec3::new(0.8, 0.76, 0.7), Vec3::new(0.13, 0.17, 0.23));
+    // Eight tiles to a texture.
     let texture = scene.texture(texture, (1.0 / (8.0 * TILE)) as f32);
     let floor = scene
-        .material(Material { base_color_texture: Some(texture), ..matt("tiles", [1.0; 3], 0.55) });
-    let turn = DQuat::from_rotation_y(0.6);
-    let corners = [(-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (1.0, -1.0)];
+        .material(Material { base_color_texture: Some(texture), ..matt("tiles", [1.0; 3], 0.5) });
+    let step = scene.material(matt("step", [0.55, 0.53, 0.5], 0.7));
+    let plain = scene.material(matt("plain", [0.6, 0.53, 0.45], 0.9));
+    let turn = turned(0.0, 0.0, 0.0, 1.0, DQuat::from_rotation_y(0.6));
+    scene.add(&square(TERRACE, 0.0), turn, floor);
+    scene.add(&walls(TERRACE, -STEP), turn, step);
+    scene.add(&square(HORIZON, -STEP), turn, plain);
+}
+
+const AROUND: [(f64, f64); 4] = [(-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (1.0, -1.0)];
+
+/// A level square from −`half` to `half` at a height, seen from above.
+fn square(half: f64, height: f64) -> Shape {
     let mut shape = Shape::default();
     shape.flat_quad(
-        corners.map(|(x, z)| DVec3::new(x, 0.0, z) * SIDE),
-        corners.map(|(x, z)| [x * SIDE, z * SIDE]),
+        AROUND.map(|(x, z)| DVec3::new(x * half, height, z * half)),
+        AROUND.map(|(x, z)| [x * half, z * half]),
     );
-    scene.add(&shape, turned(0.0, 0.0, 0.0, 1.0, turn), floor);
+    shape
+}
+
+/// The walls below the same square, from `bottom` to zero.
+fn walls(half: f64, bottom: f64) -> Shape {
+    let mut shape = Shape::default();
+    for side in 0..4 {
+        let [(x0, z0), (x1, z1)] = [AROUND[side], AROUND[(side + 1) % 4]];
+        let corner = |x: f64, y: f64, z: f64| DVec3::new(x * half, y, z * half);
+        let corners = [
+            corner(x0, bottom, z0),
+            corner(x1, bottom, z1),
+            corner(x1, 0.0, z1),
+            corner(x0, 0.0, z0),
+        ];
+        shape.flat_quad(corners, [[0.0; 2]; 4]);
+    }
+    shape
 }
 
 fn add_knot(scene: &mut Assembly) {
     let gold = scene.material(metal("gold", [1.0, 0.72, 0.32], 0.12));
     let knot = torus_knot(2, 3, 0.2, 640, 48);
-    let upright = DQuat::from_rotation_y(0.35) * DQuat::from_rotation_x(PI / 2.0 - 0.22);
+    let upright = DQuat::from_rotation_y(0.35) * DQuat::from_rotation_x(FRAC_PI_2 - 0.22);
     scene.add(&knot, turned(-0.1, 1.36, -0.6, 0.84, upright), gold);
 }
 

@@ -1,0 +1,233 @@
+//! Pictures as a whole: threads, golden images, files, refusals.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod support;
+
+use kdray_render::{
+    CameraError, LightError, Picture, PictureKind, PngDepth, RenderError, RenderOptions,
+    WorldError, render,
+};
+use kdray_scene::{Light, Model};
+use std::ops::ControlFlow;
+use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use support::*;
+
+fn small(picture: PictureKind) -> RenderOptions {
+    RenderOptions { width: 64, height: 48, samples: 4, picture, ..RenderOptions::default() }
+}
+
+#[test]
+fn any_number_of_threads_gives_the_same_picture() {
+    let (world, camera, lights) = still_life();
+    let options = RenderOptions { all_layers: true, ..small(PictureKind::Shaded) };
+    let with_threads = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| shoot(&world, &camera, &lights, &options))
+    };
+    let one = with_threads(1);
+    assert_eq!(one.layers.len(), 6);
+    for threads in [2, 3] {
+        assert!(with_threads(threads) == one, "{threads} threads");
+    }
+    let other_seed = RenderOptions { seed: 1, ..options.clone() };
+    assert!(shoot(&world, &camera, &lights, &other_seed) != one, "the seed matters");
+}
+
+#[test]
+fn a_layer_is_the_same_alone_and_among_all() {
+    let (world, camera, lights) = still_life();
+    let all = RenderOptions { all_layers: true, ..small(PictureKind::Shaded) };
+    let all = shoot(&world, &camera, &lights, &all);
+    for kind in PictureKind::ALL {
+        let alone = shoot(&world, &camera, &lights, &small(kind));
+        assert_eq!(alone.layers.len(), 1);
+        assert!(all.layers.contains(&alone.layers[0]), "{kind:?}");
+    }
+}
+
+/// At most this share of pixels may differ from a golden image by more than `LEVELS` of 255 on
+/// some channel: what other rounding of powers and sines on another machine may do.
+const SHARE: f64 = 0.01;
+const LEVELS: u8 = 4;
+
+/// Compares with `tests/golden/NAME.png`; with `KDRAY_BLESS` set, writes it instead.
+fn assert_golden(picture: &Picture, name: &str) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/golden/{name}.png"));
+    if std::env::var_os("KDRAY_BLESS").is_some() {
+        picture.write_png(&path, PngDepth::Eight).unwrap();
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let written = folder.path().join("now.png");
+    picture.write_png(&written, PngDepth::Eight).unwrap();
+    let [golden, now] = [&path, &written].map(|path| image::open(path).unwrap().to_rgba8());
+    assert_eq!(golden.dimensions(), now.dimensions(), "{name}");
+    let differs = |(a, b): (&image::Rgba<u8>, &image::Rgba<u8>)| {
+        a.0.iter().zip(b.0).any(|(a, b)| a.abs_diff(b) > LEVELS)
+    };
+    let differing = golden.pixels().zip(now.pixels()).filter(|&pair| differs(pair)).count();
+    let share = differing as f64 / (golden.width() * golden.height()) as f64;
+    assert!(share <= SHARE, "{name}: {differing} pixels differ; KDRAY_BLESS=1 makes it anew");
+}
+
+#[test]
+fn the_still_life_looks_as_it_did() {
+    let (world, camera, lights) = still_life();
+    for kind in PictureKind::ALL {
+        let picture = shoot(&world, &camera, &lights, &small(kind));
+        assert_golden(&picture, &format!("still_life_{kind:?}").to_lowercase());
+    }
+}
+
+#[test]
+fn the_showcase_looks_as_it_did() {
+    let world = world(kdray_scene::built_in::showcase());
+    let options = RenderOptions { width: 96, height: 54, ..small(PictureKind::Shaded) };
+    let model = world.model();
+    let picture = shoot(&world, &model.cameras[0], &model.lights, &options);
+    assert_golden(&picture, "showcase");
+}
+
+#[test]
+fn a_scene_without_lights_or_camera_is_seen() {
+    let mut model = Model { materials: vec![lambert(0.8)], ..Model::default() };
+    add_box(&mut model, [100.0, 7.0, -3.0], [101.0, 9.0, 2.0], 0);
+    let world = world(model);
+    let camera = kdray_render::frame(world.bounds(), 2.0);
+    let options = RenderOptions { width: 64, height: 32, ..plain(64, 32, 1) };
+    let picture = shoot(&world, &camera, &[], &options);
+    let red = picture.floats("color", "R").unwrap();
+    let seen = |i: usize| red[i] > 0.02;
+    let count = (0..64 * 32).filter(|&i| seen(i)).count();
+    assert!(count > 250, "it fills a good part, not {count} pixels");
+    assert!((0..64).all(|x| !seen(x) && !seen(31 * 64 + x)), "and is not cut off");
+    assert!(red.iter().all(|&x| x < 1.0), "nor too bright");
+}
+
+#[test]
+fn an_interrupted_render_keeps_what_is_done() {
+    let (world, camera, lights) = still_life();
+    let calls = AtomicUsize::new(0);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+    let options = small(PictureKind::Shaded);
+    let picture = pool.install(|| {
+        render(&world, &camera, &lights, &options, &|progress| {
+            assert_eq!(progress.tiles_done, calls.fetch_add(1, Ordering::Relaxed) + 1);
+            if progress.tiles_done == 3 {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        })
+    });
+    let picture = picture.unwrap();
+    assert!(!picture.complete);
+    let done = picture.floats("color", "A").unwrap().iter().filter(|&&a| a == 1.0).count();
+    assert_eq!(done, 3 * 16 * 16);
+}
+
+#[test]
+fn files_hold_what_was_computed() {
+    let (world, camera, lights) = still_life();
+    let options = RenderOptions { all_layers: true, ..small(PictureKind::Shaded) };
+    let picture = shoot(&world, &camera, &lights, &options);
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("all.exr");
+    picture.write_exr(&path).unwrap();
+    let read = exr::prelude::read_all_flat_layers_from_file(&path).unwrap();
+    let channels = &read.layer_data[0].channel_data.list;
+    let names: Vec<String> = channels.iter().map(|c| c.name.to_string()).collect();
+    let expected = [
+        "A",
+        "B",
+        "G",
+        "R",
+        "cost.nodes",
+        "cost.primitives",
+        "depth.Z",
+        "normal.X",
+        "normal.Y",
+        "normal.Z",
+        "occlusion.V",
+        "primitive.id",
+    ];
+    assert_eq!(names, expected);
+    let values = |name: &str| &channels.iter().find(|c| c.name.eq(name)).unwrap().sample_data;
+    let depth: Vec<f32> = values("depth.Z").values_as_f32().collect();
+    assert_eq!(depth, picture.floats("depth", "Z").unwrap());
+    let exr::prelude::FlatSamples::U32(ids) = values("primitive.id") else { panic!("not whole") };
+    assert_eq!(ids, picture.ids("primitive", "id").unwrap());
+
+    let path = folder.path().join("deep.png");
+    picture.write_png(&path, PngDepth::Sixteen).unwrap();
+    let image = image::open(&path).unwrap();
+    assert_eq!((image.width(), image.height()), (64, 48));
+    assert_eq!(image.color(), image::ColorType::Rgba16);
+    assert!(picture.write_png(folder.path().join("no/such.png"), PngDepth::Eight).is_err());
+    assert!(picture.write_exr(folder.path()).is_err());
+}
+
+#[test]
+fn what_cannot_be_rendered_is_refused() {
+    let (world, camera, lights) = still_life();
+    let refused = |camera: &_, lights: &[Light], options: &RenderOptions| {
+        render(&world, camera, lights, options, &|_| panic!("work was begun")).unwrap_err()
+    };
+    let sized = |width, height| RenderOptions { width, height, ..small(PictureKind::Shaded) };
+    let empty = RenderError::EmptyPicture { width: 0, height: 5 };
+    assert_eq!(refused(&camera, &lights, &sized(0, 5)), empty);
+    let vast = refused(&camera, &lights, &sized(usize::MAX, usize::MAX));
+    assert!(matches!(vast, RenderError::TooLarge { .. }));
+    let large = refused(&camera, &lights, &sized(1 << 20, 1 << 20));
+    assert!(matches!(large, RenderError::TooLarge { .. }));
+
+    let mut blind = camera.clone();
+    blind.look_at = blind.eye;
+    let options = small(PictureKind::Shaded);
+    assert_eq!(refused(&blind, &lights, &options), CameraError::NoDirection.into());
+    blind.look_at = [f64::NAN; 3];
+    assert_eq!(refused(&blind, &lights, &options), CameraError::NotFinite.into());
+    let bad = Light::Directional { direction: [0.0; 3], irradiance: [1.0; 3] };
+    assert_eq!(refused(&camera, &[bad], &options), LightError::ZeroDirection(0).into());
+    let none = RenderOptions { samples: 0, ..options };
+    assert!(matches!(
+        refused(&camera, &lights, &none),
+        RenderError::Option { option: "samples", .. }
+    ));
+}
+
+#[test]
+fn models_that_contradict_themselves_are_refused() {
+    let refused = |change: &dyn Fn(&mut Model)| {
+        let mut model = Model { materials: vec![lambert(1.0)], ..Model::default() };
+        add_floor(&mut model, 1.0, 0.0, 0);
+        change(&mut model);
+        let go_on = ControlFlow::Continue(());
+        kdray_render::World::new(model, &kdray::BuildOptions::default(), &|_| go_on).unwrap_err()
+    };
+    let short = WorldError::Length { list: "colors", found: 1, triangles: 2 };
+    assert_eq!(refused(&|m| m.colors.push([[1.0; 3]; 3])), short);
+    let missing = refused(&|m| m.material_ids[1] = 7);
+    assert_eq!(missing, WorldError::NoSuchMaterial { triangle: 1, material: 7, materials: 1 });
+    let missing = refused(&|m| m.materials[0] = textured(lambert(1.0)));
+    assert_eq!(missing, WorldError::NoSuchTexture { material: 0, texture: 0, textures: 0 });
+    let mut texture = checker();
+    texture.pixels.pop();
+    assert!(matches!(
+        refused(&|m| m.textures.push(texture.clone())),
+        WorldError::TextureSize { texture: 0, pixels: 63, .. }
+    ));
+    assert!(matches!(refused(&|m| m.vertices[0] = [f32::NAN; 3]), WorldError::Mesh(_)));
+}
+
+#[test]
+fn an_empty_scene_shows_the_background() {
+    let world = world(Model::default());
+    let camera = kdray_render::frame(world.bounds(), 1.0);
+    let options = RenderOptions { all_layers: true, ..small(PictureKind::Shaded) };
+    let picture = shoot(&world, &camera, &[], &options);
+    assert!(picture.complete);
+    assert!(picture.floats("depth", "Z").unwrap().iter().all(|z| *z == f32::INFINITY));
+    assert!(picture.floats("color", "B").unwrap().iter().all(|b| *b > 0.1));
+}
