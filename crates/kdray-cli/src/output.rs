@@ -93,7 +93,10 @@ impl Sink {
             // As for any new file; the system's mask still applies.
             builder.permissions(fs::Permissions::from_mode(0o666));
         }
-        let file = builder.tempfile_in(folder_of(path)).map_err(without_path)?;
+        let folder = folder_of(path);
+        fs::metadata(folder)?;
+        // The kind alone: the message has the temporary name, which says nothing to the user.
+        let file = builder.tempfile_in(folder).map_err(|error| io::Error::from(error.kind()))?;
         interrupt::remove_at_exit(file.path().to_owned());
         Ok(Self::Temporary(file))
     }
@@ -103,13 +106,5 @@ fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
-    }
-}
-
-/// The system's error without the temporary name, which says nothing to the user.
-fn without_path(error: io::Error) -> io::Error {
-    match error.get_ref().and_then(std::error::Error::source) {
-        Some(source) => io::Error::new(error.kind(), source.to_string()),
-        None => error,
     }
 }

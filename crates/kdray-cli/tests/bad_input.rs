@@ -119,6 +119,33 @@ fn rays_that_cannot_be_traced_miss_and_are_counted() {
 }
 
 #[test]
+fn an_empty_interval_is_a_miss_without_a_warning() {
+    let folder = Folder::new();
+    folder.file("ball.off", OCTAHEDRON);
+    let rays = "0,0,5,0,0,-1,4,6\n0,0,5,0,0,-1,6,4\n";
+    let arguments = ["query", "ball.off", "--rays", "-", "--mode", "any", "--out", "-"];
+    let ran = folder.kdray_reading(&arguments, rays).succeeds();
+    assert_eq!(ran.stdout, "occluded\ntrue\nfalse\n");
+    assert!(!ran.stderr.contains("warning"), "{}", ran.stderr);
+}
+
+#[test]
+fn a_camera_needs_a_direction_and_an_angle() {
+    let folder = Folder::new();
+    folder.file("ball.off", OCTAHEDRON);
+    let cases: [(&[&str], &str); 4] = [
+        (&["--eye", "1,1,1", "--look-at", "1,1,1"], "the same"),
+        (&["--eye", "0,5,0", "--look-at", "0,0,0", "--up", "0,1,0"], "parallel to the view"),
+        (&["--fov", "180"], "between 0 and 180"),
+        (&["--eye", "1,1"], "give 3 numbers"),
+    ];
+    for (arguments, part) in cases {
+        folder.kdray(&[&["render", "ball.off"], arguments].concat()).fails(USAGE, &[part]);
+    }
+    assert_eq!(folder.names(), ["ball.off"]);
+}
+
+#[test]
 fn a_picture_needs_pixels() {
     let folder = Folder::new();
     for size in ["0x8", "8x0", "8", "99999999x99999999"] {
@@ -152,7 +179,7 @@ fn an_output_that_cannot_be_written_is_refused_before_the_work() {
         assert!(!ran.stderr.contains("read"), "it has read the scene: {}", ran.stderr);
     }
     let ran = folder.kdray(&["query", "ball.off", "--rays", "rays.csv", "--out", "gone/x.npz"]);
-    let ran = ran.fails(OUTPUT, &["gone/x.npz"]);
+    let ran = ran.fails(OUTPUT, &["gone/x.npz: cannot be written: No such file"]);
     assert!(!ran.stderr.contains("read"), "it has read the scene: {}", ran.stderr);
     folder.kdray(&["render", "ball.off", "-o", "x.jpg"]).fails(USAGE, &["x.jpg", ".png or .exr"]);
 }
