@@ -1,5 +1,7 @@
 //! Progress, cancellation, and input that cannot be built.
 
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
 mod build_common;
 
 use build_common::{STRATEGIES, all_options, mesh, random_soup};

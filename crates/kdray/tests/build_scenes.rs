@@ -1,5 +1,7 @@
 //! Trees of every strategy over real and awkward scenes.
 
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
 mod build_common;
 
 use build_common::STRATEGIES;

@@ -1,6 +1,8 @@
 //! Trees of every strategy over hard and easy input: they hold what they must, within bounds, and
 //! do not depend on the builder or the number of threads.
 
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
 mod build_common;
 
 use build_common::{all_options, balls, mesh, random_soup, small_plans, small_soups};

@@ -1,7 +1,6 @@
 //! Inputs that the tests of the build share.
 
 #![allow(dead_code, reason = "each test file uses some of them")]
-#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use kdray::primitives::{Balls, Segments};
 use kdray::{BuildOptions, Strategy, TriangleMesh};
