@@ -26,7 +26,7 @@ fn a_point_light_falls_off_as_the_cosine_and_the_square() {
     for x in [0.0, 1.0, 4.0, 12.0] {
         let r2: f64 = 9.0 + x * x;
         let expected = 0.6 / PI * 7.0 * (3.0 / r2.sqrt()) / r2;
-        let found = light_above(&world, [x, 0.0], &[lamp.clone()], &plain(1, 1, 1));
+        let found = light_above(&world, [x, 0.0], std::slice::from_ref(&lamp), &plain(1, 1, 1));
         assert_near(found, expected, 1e-6 * expected);
     }
 }
@@ -133,7 +133,8 @@ fn veils_let_their_share_through_also_of_shadow_rays() {
         let mut model = Model { materials: vec![veil, lambert(1.0)], ..Model::default() };
         add_floor(&mut model, 5.0, 1.0, 0);
         add_floor(&mut model, 5.0, 0.0, 1);
-        let found = light_above(&world(model), [0.3, 0.1], &[sun.clone()], &plain(1, 1, 1));
+        let found =
+            light_above(&world(model), [0.3, 0.1], std::slice::from_ref(&sun), &plain(1, 1, 1));
         assert_near(found, through * through, 1e-6);
     }
 }
@@ -144,7 +145,7 @@ fn shadows_are_hard_from_points_and_soft_from_rectangles() {
     add_box(&mut model, [0.0, 1.0, -4.0], [4.0, 1.1, 4.0], 0);
     let world = world(model);
     let lamp = Light::Point { position: [0.0, 3.0, 0.0], intensity: [9.0; 3], cone: None };
-    let hard = |x| light_above(&world, [x, 0.0], &[lamp.clone()], &plain(1, 1, 1));
+    let hard = |x| light_above(&world, [x, 0.0], std::slice::from_ref(&lamp), &plain(1, 1, 1));
     assert!(hard(-0.01) > 0.3 && hard(-3.0) > 0.05);
 
     let panel = Light::Rectangle {
@@ -153,7 +154,7 @@ fn shadows_are_hard_from_points_and_soft_from_rectangles() {
         edge_v: [0.0, 0.0, 0.02],
         radiance: [50.0; 3],
     };
-    let soft = |x| light_above(&world, [x, 0.0], &[panel.clone()], &plain(1, 1, 64));
+    let soft = |x| light_above(&world, [x, 0.0], std::slice::from_ref(&panel), &plain(1, 1, 64));
     // Half of the lamp is behind the edge at x = 0, all of it less and less to the left.
     let lit: Vec<f64> = [-0.05, -0.15, -0.25, -0.35, -0.45].map(soft).to_vec();
     assert!(lit.windows(2).all(|pair| pair[0] < pair[1]), "{lit:?}");
