@@ -50,7 +50,8 @@ pub fn view(camera: &CameraInfo, size: usize) -> Vec<Ray<3>> {
     (0..size).flat_map(|y| (0..size).map(move |x| (x, y))).map(ray).collect()
 }
 
-/// Rays between random points of a box a quarter larger than that of the mesh.
+/// Rays between random points of a box a quarter larger than that of the mesh, and for a flat mesh
+/// not flat.
 pub fn random_rays(mesh: &TriangleMesh, count: usize, seed: u64) -> Vec<Ray<3>> {
     let bounds = kdray::Aabb::of_points(
         mesh.triangles().iter().flatten().map(|&v| mesh.vertices()[v as usize]),
@@ -59,9 +60,10 @@ pub fn random_rays(mesh: &TriangleMesh, count: usize, seed: u64) -> Vec<Ray<3>> 
         return vec![Ray::new([0.0; 3], [1.0; 3]); count];
     }
     let mut random = random(seed);
-    let (center, extent) = (bounds.center(), bounds.extent());
+    let center = bounds.center();
+    let half = bounds.extent().map(|side| 0.625 * side.max(0.1 * bounds.diagonal()));
     let mut point = || -> [f64; 3] {
-        std::array::from_fn(|k| center[k] + 0.625 * extent[k] * random.random_range(-1.0..1.0))
+        std::array::from_fn(|k| center[k] + half[k] * random.random_range(-1.0..=1.0))
     };
     (0..count).map(|_| Ray::through(point(), point())).collect()
 }
@@ -82,7 +84,7 @@ pub fn compare(
     rays: &[Ray<3>],
     answers: &[Option<Hit>],
 ) -> Differences {
-    let options = BuildOptions { strategy, ..BuildOptions::default() };
+    let options = BuildOptions::for_strategy(strategy);
     let scene = Scene::build(mesh.clone(), &options).expect("a valid mesh has a tree");
     let found: Vec<_> = rays.par_iter().map(|ray| scene.closest_hit(ray)).collect();
     let mut differences = Differences::default();

@@ -2,10 +2,12 @@
 //! purpose, the scenes beside the checkout, and a fast answer without a tree.
 
 pub mod agree;
+pub mod closed;
 pub mod command_line;
 pub mod flat;
 pub mod meshes;
 pub mod oracle;
+pub mod parity;
 pub mod rays;
 pub mod shared;
 pub mod subject;

@@ -1,6 +1,8 @@
-//! What CI and the README call: `cargo xtask lint`, `cargo xtask test`.
+//! What CI and the README call: `cargo xtask lint`, `cargo xtask test`, and the long checks.
 
+mod agree;
 mod lint;
+mod parity;
 mod steps;
 mod test;
 
@@ -21,12 +23,18 @@ enum Task {
     Lint,
     /// All tests: of every crate, of the documentation, of the examples.
     Test,
+    /// Every tree against the naive answer on real scenes, in a release build.
+    Agree(agree::Options),
+    /// Rays at every vertex and edge of closed meshes: `count` must be even. In a release build.
+    Parity(parity::Options),
 }
 
 fn main() -> ExitCode {
     let outcome = match Arguments::parse().task {
         Task::Lint => lint::run(),
         Task::Test => test::run(),
+        Task::Agree(options) => agree::run(&options),
+        Task::Parity(options) => parity::run(&options),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
