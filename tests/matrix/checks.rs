@@ -1,7 +1,7 @@
 //! What is compared.
 
 use crate::cases::{Aimed, Case};
-use kdray::{BuildOptions, Hit, Scene};
+use kdray::{BuildOptions, Hit, KdTree, Scene};
 use kdray_tests::Subject;
 use kdray_tests::oracle::{agrees_on_all, agrees_on_closest};
 use kdray_tests::rays::Archer;
@@ -34,6 +34,18 @@ pub(crate) fn on_each<S: Subject<K> + Clone + Send + Sync, const K: usize>(
         if let Some(first) = wrong.first() {
             panic!("{} of {} rays: {first}", wrong.len(), aimed.len());
         }
+    }
+}
+
+/// Builds a tree over each case and validates it.
+pub(crate) fn trees_are_valid<S: Subject<K>, const K: usize>(
+    options: &BuildOptions,
+    cases: &[Case<S, K>],
+) {
+    for case in cases {
+        let tree = KdTree::build(&case.subject, options).expect("cases are valid");
+        let valid = tree.validate(&case.subject);
+        assert_eq!(valid, Ok(()), "case {:?}", case.name);
     }
 }
 

@@ -14,6 +14,11 @@ macro_rules! queries {
         mod $kind {
             use super::*;
 
+            #[test]
+            fn trees_are_valid() {
+                checks::trees_are_valid(&options(), &$cases);
+            }
+
             $(
                 #[test]
                 fn $query() {
