@@ -93,7 +93,7 @@ fn add_floor(scene: &mut Assembly) {
     let floor = scene
         .material(Material { base_color_texture: Some(texture), ..matt("tiles", [1.0; 3], 0.5) });
     let step = scene.material(matt("step", [0.55, 0.53, 0.5], 0.7));
-    let plain = scene.material(matt("plain", [0.6, 0.53, 0.45], 0.9));
+    let plain = scene.material(matt("plain", [0.52, 0.45, 0.38], 0.9));
     let turn = turned(0.0, 0.0, 0.0, 1.0, DQuat::from_rotation_y(0.6));
     scene.add(&square(TERRACE, 0.0), turn, floor);
     scene.add(&walls(TERRACE, -STEP), turn, step);
@@ -130,7 +130,7 @@ fn walls(half: f64, bottom: f64) -> Shape {
 }
 
 fn add_knot(scene: &mut Assembly) {
-    let gold = scene.material(metal("gold", [1.0, 0.72, 0.32], 0.12));
+    let gold = scene.material(metal("gold", [1.0, 0.72, 0.32], 0.07));
     let knot = torus_knot(2, 3, 0.2, 640, 48);
     let upright = DQuat::from_rotation_y(0.35) * DQuat::from_rotation_x(FRAC_PI_2 - 0.22);
     scene.add(&knot, turned(-0.1, 1.36, -0.6, 0.84, upright), gold);
@@ -165,7 +165,7 @@ fn add_sponge(scene: &mut Assembly) {
 }
 
 fn add_flake(scene: &mut Assembly) {
-    let blue = scene.material(metal("blue steel", [0.42, 0.62, 0.86], 0.16));
+    let blue = scene.material(metal("blue steel", [0.42, 0.62, 0.86], 0.1));
     let ball = sphere(4);
     let place = at(1.82, 0.36, 1.25, 0.36);
     for seat in sphereflake(2) {
