@@ -33,13 +33,20 @@ pub fn point_light_for(bounds: &Aabb<3>, position: [f64; 3]) -> Light {
     Light::Point { position, intensity: [intensity as f32; 3], cone: None }
 }
 
-/// The light of a scene that has none: parallel light from over the camera's left shoulder.
-pub fn default_lights(camera: &Camera) -> Vec<Light> {
+/// The light of a scene that has none: a weak lamp at the camera, so that no interior is dark, and
+/// last the sun from over the camera's left shoulder. The lamp makes a white surface gray (0.3) that
+/// faces it from a third of the diagonal of `bounds`.
+pub fn default_lights(camera: &Camera, bounds: &Aabb<3>) -> Vec<Light> {
     let forward = (DVec3::from(camera.look_at) - DVec3::from(camera.eye)).normalize_or(-DVec3::Z);
     let right = forward.cross(camera.up.into()).normalize_or(DVec3::X);
     let up = right.cross(forward);
     let direction = forward + 0.25 * right - 0.5 * up;
-    vec![Light::Directional { direction: direction.into(), irradiance: [2.6; 3] }]
+    let reach = if bounds.is_empty() { 1.0 } else { bounds.diagonal() / 3.0 };
+    let intensity = (0.3 * PI * reach * reach).min(1e38) as f32;
+    vec![
+        Light::Point { position: camera.eye, intensity: [intensity; 3], cone: None },
+        Light::Directional { direction: direction.into(), irradiance: [2.2; 3] },
+    ]
 }
 
 /// A light made ready for shading.

@@ -93,8 +93,11 @@ pub fn render(
     }
     check(options)?;
     let view = View::new(camera, width as f64 / height as f64)?;
-    let lamps =
-        if lights.is_empty() { Lamp::all(&default_lights(camera)) } else { Lamp::all(lights) }?;
+    let lamps = if lights.is_empty() {
+        Lamp::all(&default_lights(camera, world.bounds()))
+    } else {
+        Lamp::all(lights)
+    }?;
     let film = Film::new(options).ok_or_else(|| RenderError::TooLarge {
         width,
         height,

@@ -106,6 +106,24 @@ fn a_scene_without_lights_or_camera_is_seen() {
 }
 
 #[test]
+fn an_interior_without_lights_is_not_dark() {
+    let mut model = Model { materials: vec![lambert(0.8)], ..Model::default() };
+    add_box(&mut model, [-5.0, 0.0, -5.0], [5.0, 4.0, 5.0], 0);
+    let world = world(model);
+    let camera = kdray_scene::Camera {
+        eye: [0.5, 2.0, 4.0],
+        look_at: [0.0, 1.5, 0.0],
+        ..from_above(0.0, 0.0, 3.0)
+    };
+    let camera = kdray_scene::Camera { up: [0.0, 1.0, 0.0], ..camera };
+    let picture = shoot(&world, &camera, &[], &plain(8, 8, 1));
+    let green = picture.floats("color", "G").unwrap();
+    let [darkest, brightest] =
+        [f32::min, f32::max].map(|pick| green.iter().copied().reduce(pick).unwrap());
+    assert!(darkest > 0.01 && brightest < 1.0, "from {darkest} to {brightest}");
+}
+
+#[test]
 fn an_interrupted_render_keeps_what_is_done() {
     let (world, camera, lights) = still_life();
     let calls = AtomicUsize::new(0);

@@ -97,7 +97,8 @@ fn add_floor(scene: &mut Assembly) {
     let turn = turned(0.0, 0.0, 0.0, 1.0, DQuat::from_rotation_y(0.6));
     scene.add(&square(TERRACE, 0.0), turn, floor);
     scene.add(&walls(TERRACE, -STEP), turn, step);
-    scene.add(&square(HORIZON, -STEP), turn, plain);
+    // Not turned, so that the horizon is level.
+    scene.add(&square(HORIZON, -STEP), DAffine3::IDENTITY, plain);
 }
 
 const AROUND: [(f64, f64); 4] = [(-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (1.0, -1.0)];

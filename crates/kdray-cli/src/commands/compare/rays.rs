@@ -52,7 +52,7 @@ impl RaySets {
         };
         // A light of the command line comes first: it was asked for.
         let light = lights.get(model.lights.len()).or(lights.first()).cloned();
-        let light = light.or_else(|| default_lights(&camera).pop());
+        let light = light.or_else(|| default_lights(&camera, bounds).pop());
         let shadow = light.map_or(Vec::new(), |light| shadow(&places, &light));
         let bounce = bounce(&places);
         let set = |name, any, rays| RaySet { name, any, rays };
