@@ -101,7 +101,9 @@ fn views(it: &RayPath<'_>, section: &Section, path: &Path, root: Rect) -> Option
     });
     let seen = detail.and_then(|rect| Some((rect, visible_t(section, it.ray, &rect)?)));
     let Some((rect, [from, to])) = seen else {
-        return Some(vec![view("the whole tree", 0.0, ROOM[1], shown, whole_t)]);
+        let mut only = view("the whole tree", 0.0, ROOM[1], shown, whole_t);
+        only.panel.at[0] += (ROOM[1][0] - only.panel.size[0]) / 2.0;
+        return Some(vec![only]);
     };
     let t = [from.max(whole_t[0]), to.min(whole_t[1])];
     Some(vec![

@@ -62,7 +62,11 @@ fn rows(steps: &[Step]) -> Vec<Vec<String>> {
         ["step", "node", "plane", "t_near", "t_split", "t_far", "near", "far", "waiting"];
     let mut rows: Vec<Vec<String>> =
         vec![headings.iter().map(|&heading| heading.to_owned()).collect()];
+    let mut missed: Vec<u32> = Vec::new();
     for step in steps {
+        if !missed.is_empty() && !matches!(step, Step::Primitive { t: None, .. }) {
+            rows.push(vec![misses(&std::mem::take(&mut missed))]);
+        }
         match step {
             Step::Root(_) => {}
             Step::Split(it) => rows.push(split_row(it)),
@@ -71,9 +75,9 @@ fn rows(steps: &[Step]) -> Vec<Vec<String>> {
                 [it.node.to_string(), String::new(), readable(it.t_near), String::new()],
                 [readable(it.t_far), String::new(), String::new(), it.stack_depth.to_string()],
             )),
-            Step::Primitive { id, t } => {
-                let found = t.map_or("no".to_owned(), |t| format!("t = {}", readable(t)));
-                rows.push(vec![format!("  test triangle {id}: {found}")]);
+            Step::Primitive { id, t: None } => missed.push(*id),
+            Step::Primitive { id, t: Some(t) } => {
+                rows.push(vec![format!("  test triangle {id}: t = {}", readable(*t))]);
             }
             Step::Pop { node: 0, .. } => {}
             Step::Pop { node, t_near } => rows.push(row(
@@ -88,7 +92,20 @@ fn rows(steps: &[Step]) -> Vec<Vec<String>> {
             )]),
         }
     }
+    if !missed.is_empty() {
+        rows.push(vec![misses(&missed)]);
+    }
     rows
+}
+
+/// Triangles that were tested in a row and not hit.
+fn misses(ids: &[u32]) -> String {
+    let named: Vec<String> = ids.iter().take(5).map(u32::to_string).collect();
+    let more = if ids.len() > named.len() { ", …" } else { "" };
+    match ids {
+        [id] => format!("  test triangle {id}: no"),
+        _ => format!("  test {} triangles ({}{more}): no", ids.len(), named.join(", ")),
+    }
 }
 
 fn split_row(it: &SplitStep) -> Vec<String> {
