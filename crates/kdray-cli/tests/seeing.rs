@@ -144,6 +144,9 @@ fn a_slice_has_a_rectangle_for_each_cell() {
     folder.kdray(&[&arguments[..], &["--depth", "4"]].concat()).succeeds();
     let some = count_class(&folder.path("slice.svg"), "cell");
     assert!(1 < some && some <= 16 && some < all, "{some} of {all}");
+    folder.kdray(&[&arguments[..], &["--window", "0,0.5,-0.5,0.5"]].concat()).succeeds();
+    let seen = count_class(&folder.path("slice.svg"), "cell");
+    assert!(1 < seen && seen < all, "{seen} of {all}");
 }
 
 #[test]
@@ -172,6 +175,9 @@ fn pictures_that_cannot_be_drawn_are_refused() {
     };
     fails(&["eight.off", "-o", "a.svg", "--slice", "z=1.5"], USAGE, &["z=1.5", "-1 and 1"]);
     fails(&["eight.off", "-o", "a.svg", "--slice", "w=1"], USAGE, &["such as z=0.5"]);
+    let far = ["eight.off", "-o", "a.svg", "--slice", "z=0", "--window", "5,6,0,1"];
+    fails(&far, USAGE, &["--window"]);
+    fails(&["eight.off", "-o", "a.svg", "--window", "0,1,0,1"], USAGE, &["--slice"]);
     fails(&["eight.off", "-o", "a.png", "--depth", "13"], USAGE, &["--depth 13", "12", "--slice"]);
     fails(&["eight.off", "-o", "a.gif"], USAGE, &["a.gif", ".png"]);
     fails(&["eight.off"], USAGE, &["--out"]);

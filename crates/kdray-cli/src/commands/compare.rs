@@ -41,7 +41,7 @@ pub(crate) struct Args {
     #[command(flatten)]
     scene: SceneArgs,
     /// About so many camera rays, spread evenly over the picture
-    #[arg(long, value_name = "N", default_value_t = 65536, value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 20000, value_parser = clap::value_parser!(u32).range(1..))]
     rays: u32,
     /// How often everything is measured
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..))]

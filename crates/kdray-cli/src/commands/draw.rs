@@ -43,6 +43,10 @@ pub(crate) struct Args {
     /// Show this plane through the scene instead of a render
     #[arg(long, value_name = "x|y|z=VALUE", allow_hyphen_values = true, value_parser = slice_plane)]
     slice: Option<(usize, f64)>,
+    /// Show only this part of a slice, in the numbers at its edges: from the left to the right, and
+    /// from below to above
+    #[arg(long, value_name = "LEFT,RIGHT,BELOW,ABOVE", allow_hyphen_values = true, requires = "slice", value_parser = window)]
+    window: Option<[[f64; 2]; 2]>,
     /// How many splits deep cells are drawn; without it 5 over a render (12 at most), and all of
     /// a slice. Where the tree is not as deep, its leaves are drawn
     #[arg(long, value_name = "N")]
@@ -98,11 +102,13 @@ fn write_slice(
         args.build.split.name(),
         args.depth.map_or(String::new(), |depth| format!(", to depth {depth}")),
     );
-    let slice = Slice { section: Section::perpendicular(axis, value), depth, title: &title };
+    let section = Section::perpendicular(axis, value);
+    let slice = Slice { section, depth, window: args.window, title: &title };
     let room = [args.view.size.width as f64, args.view.size.height as f64];
     let Some((canvas, figures)) = draw_slice(world.scene(), &slice, room) else {
         return Err(CliError::Usage(format!(
-            "--slice {name}={value}: the scene lies between {name} = {} and {}; choose a value there",
+            "--slice {name}={value}: the scene lies between {name} = {} and {}; choose a value \
+             there, and a --window in its slice",
             bounds.min[axis], bounds.max[axis]
         )));
     };
@@ -187,9 +193,27 @@ fn slice_plane(text: &str) -> Result<(usize, f64), String> {
     Ok((axis, value))
 }
 
+/// Reads `LEFT,RIGHT,BELOW,ABOVE`.
+fn window(text: &str) -> Result<[[f64; 2]; 2], String> {
+    let [left, right, below, above] = crate::args::numbers::<4>(text)?;
+    if left < right && below < above {
+        Ok([[left, right], [below, above]])
+    } else {
+        Err("LEFT must be less than RIGHT, and BELOW less than ABOVE".to_owned())
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::slice_plane;
+    use super::{slice_plane, window};
+
+    #[test]
+    fn windows_have_an_extent() {
+        assert_eq!(window("-1,2,0,0.5"), Ok([[-1.0, 2.0], [0.0, 0.5]]));
+        for bad in ["", "1,1,0,1", "0,1,2,1", "0,1,2", "0,1,0,inf"] {
+            assert!(window(bad).is_err(), "{bad}");
+        }
+    }
 
     #[test]
     fn slices_have_an_axis_and_a_finite_value() {

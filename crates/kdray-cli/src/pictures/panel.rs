@@ -14,6 +14,12 @@ pub(crate) struct Rect {
 }
 
 impl Rect {
+    /// The smallest one that holds a line.
+    pub(crate) fn around(ends: &[[f64; 2]; 2]) -> Self {
+        let range = |k: usize| [ends[0][k].min(ends[1][k]), ends[0][k].max(ends[1][k])];
+        Self { across: range(0), up: range(1) }
+    }
+
     /// Width and height.
     pub(crate) fn size(&self) -> [f64; 2] {
         [self.across[1] - self.across[0], self.up[1] - self.up[0]]
@@ -25,6 +31,12 @@ impl Rect {
             across: [self.across[0] - margin, self.across[1] + margin],
             up: [self.up[0] - margin, self.up[1] + margin],
         }
+    }
+
+    /// Whether all of the other is in this one.
+    pub(crate) fn holds(&self, other: &Self) -> bool {
+        let within = |a: [f64; 2], b: [f64; 2]| a[0] <= b[0] && b[1] <= a[1];
+        within(self.across, other.across) && within(self.up, other.up)
     }
 
     /// Whether the two share a point.

@@ -90,7 +90,8 @@ pub(crate) fn draw_ray_path(it: &RayPath<'_>) -> Option<Canvas> {
 fn views(it: &RayPath<'_>, section: &Section, path: &Path, root: Rect) -> Option<Vec<View>> {
     let whole_t =
         path.bars().iter().map(|bar| bar.t).reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])?;
-    let shown = overview_rect(section, it.ray, root);
+    let shown = overview_rect(section, it.ray, whole_t, root);
+    let heading = if shown.holds(&root) { "the whole tree" } else { "the ray in the tree" };
     let view = |heading, column: f64, room, shown, t| {
         let panel = Panel::fit([LEFT + column * WIDTH / 2.0, TOP], room, shown);
         View { heading, panel, t }
@@ -101,13 +102,13 @@ fn views(it: &RayPath<'_>, section: &Section, path: &Path, root: Rect) -> Option
     });
     let seen = detail.and_then(|rect| Some((rect, visible_t(section, it.ray, &rect)?)));
     let Some((rect, [from, to])) = seen else {
-        let mut only = view("the whole tree", 0.0, ROOM[1], shown, whole_t);
+        let mut only = view(heading, 0.0, ROOM[1], shown, whole_t);
         only.panel.at[0] += (ROOM[1][0] - only.panel.size[0]) / 2.0;
         return Some(vec![only]);
     };
     let t = [from.max(whole_t[0]), to.min(whole_t[1])];
     Some(vec![
-        view("the whole tree", 0.0, ROOM[0], shown, whole_t),
+        view(heading, 0.0, ROOM[0], shown, whole_t),
         view("where the search ends", 1.0, ROOM[0], rect, t),
     ])
 }
@@ -198,8 +199,17 @@ fn cells_of(scene: &Scene, steps: &[Step]) -> HashMap<u32, Cell<3>> {
     cells
 }
 
-/// The root's box, and a little of the ray before and behind it.
-fn overview_rect(section: &Section, ray: &Ray, root: Rect) -> Rect {
+/// The root's box, and a little of the ray before and behind it; of a box that is much larger than
+/// the ray's way through it, the part around that.
+fn overview_rect(section: &Section, ray: &Ray, t: [f64; 2], root: Rect) -> Rect {
+    let way = Rect::around(&t.map(|t| section.place(ray.at(t))));
+    let around_way = way.grown(0.35 * way.size()[0].max(way.size()[1]));
+    let crop = |whole: [f64; 2], part: [f64; 2]| {
+        let small = part[1] - part[0] < 0.4 * (whole[1] - whole[0]);
+        if small { [part[0].max(whole[0]), part[1].min(whole[1])] } else { whole }
+    };
+    let root =
+        Rect { across: crop(root.across, around_way.across), up: crop(root.up, around_way.up) };
     let [width, height] = root.size();
     let shown = root.grown(0.1 * width.max(height));
     // The observer is shown too if that does not make the box small.
@@ -254,7 +264,7 @@ fn content(
             }
         }
     }
-    let near = |ends: &&[[f64; 2]; 2]| extent(ends).meets(&panel.shown());
+    let near = |ends: &&[[f64; 2]; 2]| Rect::around(ends).meets(&panel.shown());
     let place = |ends: &[[f64; 2]; 2]| ends.map(|p| panel.place(p));
     let context = triangles.iter().filter(near).map(place);
     group = group.add(lines(context, Stroke::new(palette::GREY, 0.9)));
@@ -273,11 +283,6 @@ fn content(
     group = group.add(lines(cut, Stroke::new(palette::BLACK, 2.0)));
     group = group.add(frame(panel, root));
     marks_along_ray(it, section, path, panel).into_iter().fold(group, Group::add)
-}
-
-fn extent(ends: &[[f64; 2]; 2]) -> Rect {
-    let range = |k: usize| [ends[0][k].min(ends[1][k]), ends[0][k].max(ends[1][k])];
-    Rect { across: range(0), up: range(1) }
 }
 
 /// The line in which the section cuts a splitting plane within its cell.

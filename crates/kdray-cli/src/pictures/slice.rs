@@ -15,6 +15,8 @@ pub(crate) struct Slice<'a> {
     pub(crate) section: Section,
     /// How many splits deep cells are shown.
     pub(crate) depth: u32,
+    /// The only part that is shown, if not all: `[low, high]` across and up.
+    pub(crate) window: Option<[[f64; 2]; 2]>,
     /// The headline.
     pub(crate) title: &'a str,
 }
@@ -22,9 +24,9 @@ pub(crate) struct Slice<'a> {
 /// How many cells and triangles a slice shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct SliceFigures {
-    /// Cells cut by the plane.
+    /// Cells cut by the plane, as far as they are shown.
     pub(crate) cells: usize,
-    /// Triangles cut by the plane.
+    /// Triangles cut by the plane, likewise.
     pub(crate) triangles: usize,
 }
 
@@ -32,7 +34,7 @@ const MARGIN: [f64; 2] = [96.0, 24.0];
 const TOP: f64 = 48.0;
 
 /// Draws the slice with everything in `room` pixels, but for scale and legend; `None` if the
-/// plane does not cut the tree's box.
+/// plane, or the window in it, does not meet the tree's box.
 pub(crate) fn draw_slice(
     scene: &Scene,
     slice: &Slice<'_>,
@@ -40,10 +42,19 @@ pub(crate) fn draw_slice(
 ) -> Option<(Canvas, SliceFigures)> {
     let section = &slice.section;
     let root = section.rect(scene.tree().bounds())?;
-    let tree = section.of_tree(scene.tree(), slice.depth);
-    let triangles = cut_triangles(scene, section);
+    if let Some([across, up]) = slice.window
+        && !root.meets(&Rect { across, up })
+    {
+        return None;
+    }
     let margin = 0.02 * root.size()[0].max(root.size()[1]);
-    let panel = Panel::fit([MARGIN[0], TOP], room, root.grown(margin));
+    let window = slice.window.map(|[across, up]| Rect { across, up });
+    let panel = Panel::fit([MARGIN[0], TOP], room, window.unwrap_or(root.grown(margin)));
+    let mut tree = section.of_tree(scene.tree(), slice.depth);
+    tree.cells.retain(|cell| cell.rect.meets(&panel.shown()));
+    tree.splits.retain(|split| Rect::around(&split.ends).meets(&panel.shown()));
+    let mut triangles = cut_triangles(scene, section);
+    triangles.retain(|ends| Rect::around(ends).meets(&panel.shown()));
 
     let width = (MARGIN[0] + panel.size[0] + MARGIN[1]).max(640.0);
     let legend = legend(section);

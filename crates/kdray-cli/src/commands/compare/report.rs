@@ -4,7 +4,7 @@ use super::Args;
 use super::contender::{Contender, Kind};
 use super::measure::Figures;
 use super::rays::RaySets;
-use crate::table::columns;
+use crate::{pictures::three_digits, table::columns};
 use kdray::TriangleMesh;
 use serde::Serialize;
 
@@ -127,7 +127,7 @@ impl Report {
         };
         let tree =
             |show: fn(&TreeEntry) -> String| move |entry: &Entry| entry.tree.as_ref().map(show);
-        row("build, s", &tree(|it| format!("{:.3}", it.build_seconds)));
+        row("build, s", &tree(|it| three_digits(it.build_seconds)));
         row("nodes", &tree(|it| it.nodes.to_string()));
         row("leaves", &tree(|it| it.leaves.to_string()));
         row("empty leaves", &tree(|it| it.empty_leaves.to_string()));
@@ -147,9 +147,7 @@ impl Report {
             row(&format!("{name}: triangles tested per ray"), &|it| {
                 set(it).triangles_per_ray.map(one)
             });
-            row(&format!("{name}: Mrays/s"), &|it| {
-                set(it).mrays_per_second.map(crate::pictures::three_digits)
-            });
+            row(&format!("{name}: Mrays/s"), &|it| set(it).mrays_per_second.map(three_digits));
         }
         rows
     }
