@@ -18,7 +18,7 @@ pub enum LightError {
 }
 
 /// A point light at `position` that suits the scene: a white surface that faces it from the
-/// distance of the middle of `bounds` (at least a quarter of the diagonal) appears as white.
+/// distance of the middle of `bounds` (at least an eighth of the diagonal) appears as white.
 ///
 /// In formulas: the intensity is π·r², so that the irradiance I/r² is π and a Lambertian surface
 /// of albedo ρ has radiance ρ/π · π = ρ.
@@ -28,7 +28,7 @@ pub fn point_light_for(bounds: &Aabb<3>, position: [f64; 3]) -> Light {
     } else {
         (DVec3::from(bounds.center()), bounds.diagonal())
     };
-    let distance = (DVec3::from(position) - center).length().max(diagonal / 4.0);
+    let distance = (DVec3::from(position) - center).length().max(diagonal / 8.0);
     let intensity = (PI * distance * distance).clamp(f64::from(f32::MIN_POSITIVE), 1e38);
     Light::Point { position, intensity: [intensity as f32; 3], cone: None }
 }

@@ -18,3 +18,8 @@ pub use geometry::{Aabb, Interval, Ray, RayError};
 pub use primitives::{Hit, MeshError, Side, TriangleMesh};
 pub use query::Scene;
 pub use tree::{KdTree, TreeStats};
+
+/// The README's example, compiled and run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+pub struct ReadmeExamples;
