@@ -1,7 +1,7 @@
 //! Pictures of a model by backward ray tracing (Whitted 1980), with [`kdray`] finding the hits.
 //!
 //! The way of a picture: a [`World`] (a model and the kd-tree over its triangles), seen by a
-//! camera (its own, or one that [`frame`] chooses), is [`render`]ed with [`RenderOptions`] to a
+//! camera (its own, or one that [`frame`] chooses), is [`render()`]ed with [`RenderOptions`] to a
 //! [`Picture`] of named float layers, which is written as PNG or OpenEXR.
 
 mod camera;

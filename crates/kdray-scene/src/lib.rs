@@ -1,6 +1,6 @@
 //! Meshes, materials, lights and cameras, from files and from code.
 //!
-//! [`load`] reads OBJ, PLY, STL, OFF, glTF and GLB files, also compressed ones, into a [`Model`].
+//! [`load()`] reads OBJ, PLY, STL, OFF, glTF and GLB files, also compressed ones, into a [`Model`].
 
 pub mod built_in;
 mod camera;
