@@ -21,4 +21,5 @@ pub use light::{LightError, default_lights, point_light_for};
 pub use options::{Background, PictureKind, RenderOptions};
 pub use picture::{Channel, Layer, Picture, PngDepth, Samples, WriteError};
 pub use render::{RenderError, RenderProgress, render};
+pub use surface::HitPoint;
 pub use world::{World, WorldError};

@@ -200,12 +200,12 @@ impl<'a> Tracer<'a> {
 
     /// `weight` times what comes from `direction` on the viewer's side of the surface.
     fn bounce(&self, surface: &Surface<'_>, direction: DVec3, weight: Vec3, path: &Path) -> Vec3 {
-        self.follow(surface, kept_on_side(direction, surface.facing), weight, path)
+        self.follow(surface, kept_on_side(direction, surface.at.facing()), weight, path)
     }
 
     /// `weight` times what comes from `direction` behind the surface.
     fn pass(&self, surface: &Surface<'_>, direction: DVec3, weight: Vec3, path: &Path) -> Vec3 {
-        self.follow(surface, kept_on_side(direction, -surface.facing), weight, path)
+        self.follow(surface, kept_on_side(direction, -surface.at.facing()), weight, path)
     }
 
     fn follow(&self, surface: &Surface<'_>, direction: DVec3, weight: Vec3, path: &Path) -> Vec3 {
@@ -215,7 +215,7 @@ impl<'a> Tracer<'a> {
         if path.bounces > self.options.max_bounces {
             return weight * Vec3::from(self.options.ambient);
         }
-        weight * self.radiance(surface.ray_along(direction), path)
+        weight * self.radiance(surface.at.ray_along(direction), path)
     }
 }
 

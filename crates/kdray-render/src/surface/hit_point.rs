@@ -1,0 +1,55 @@
+//! A hit as a place from which rays start.
+
+use super::offset::BoundedPoint;
+use glam::DVec3;
+use kdray::{Hit, Ray, Side, TriangleMesh};
+
+/// The point at which a ray has hit a triangle, for rays that go on from there.
+///
+/// Such rays never meet the triangle that they leave, and miss nothing behind it: their origin is
+/// moved just beyond what the rounding of the point can be, to the side that they point to. The
+/// method is in the guide, `docs/guide/rendering.md`.
+#[derive(Clone, Copy, Debug)]
+pub struct HitPoint {
+    point: BoundedPoint,
+    facing: DVec3,
+}
+
+impl HitPoint {
+    /// Where `ray` hit a triangle of `mesh`; `hit` is one of its hits.
+    pub fn new(mesh: &TriangleMesh, ray: &Ray, hit: &Hit) -> Self {
+        let corners = mesh.corners(hit.primitive_id).map(|p| DVec3::from(p.map(f64::from)));
+        let viewer = -DVec3::from(ray.direction).normalize();
+        let geometric = geometric_normal(corners).unwrap_or(viewer);
+        let facing = if hit.side == Side::Front { geometric } else { -geometric };
+        Self { point: BoundedPoint::on_triangle(corners, hit.u, hit.v), facing }
+    }
+
+    /// The point as computed, within rounding of the triangle.
+    pub fn position(&self) -> DVec3 {
+        self.point.position()
+    }
+
+    /// The unit geometric normal on the side that the ray came from.
+    pub fn facing(&self) -> DVec3 {
+        self.facing
+    }
+
+    /// The ray from here along `direction`.
+    pub fn ray_along(&self, direction: DVec3) -> Ray {
+        Ray::new(self.point.leave(self.facing, direction), direction)
+    }
+
+    /// The ray from here that is at `target` for t = 1.
+    pub fn ray_to(&self, target: DVec3) -> Ray {
+        let origin = self.point.leave(self.facing, target - self.position());
+        Ray::through(origin, target)
+    }
+}
+
+fn geometric_normal([a, b, c]: [DVec3; 3]) -> Option<DVec3> {
+    let (e1, e2) = (b - a, c - a);
+    // Scaled first, so that neither tiny nor huge triangles leave the range of f64.
+    let scale = e1.abs().max(e2.abs()).max_element();
+    (e1 / scale).cross(e2 / scale).try_normalize()
+}
