@@ -19,7 +19,7 @@ fn hits_of_a_ray_in_a_split_plane_rise() {
     // Rungs on alternating sides of the line x = 0, in which the ray runs and touches them all.
     let rung = |i: i16| [[0.0, f32::from(i)], [if i % 2 == 0 { 1.0 } else { -1.0 }, f32::from(i)]];
     let segments = Segments::new((0..40).map(rung).collect()).unwrap();
-    for strategy in [Strategy::Middle, Strategy::Median, Strategy::RoundRobin, Strategy::Sah] {
+    for strategy in Strategy::ALL {
         let options = BuildOptions { strategy, leaf_size: 1, ..BuildOptions::default() };
         let scene = Scene::build(segments.clone(), &options).unwrap();
         let ray = Ray::new([0.0, -1.0], [0.0, 1.0]);

@@ -142,14 +142,17 @@ impl From<f64> for Scaled {
 }
 
 impl Scaled {
-    /// The quotient as an f64: infinite or zero if it lies beyond the range.
+    /// The quotient as an f64: infinite if it is too large for one, and if it is too small, the
+    /// smallest of its sign. So it is zero only where this is.
     pub fn divided_by(self, divisor: Self) -> f64 {
         if self.mantissa == 0.0 {
             return 0.0;
         }
         let exponent = self.exponent - divisor.exponent;
         let half = exponent / 2;
-        self.mantissa / divisor.mantissa * power_of_two(half) * power_of_two(exponent - half)
+        let quotient =
+            self.mantissa / divisor.mantissa * power_of_two(half) * power_of_two(exponent - half);
+        if quotient == 0.0 { f64::from_bits(1).copysign(quotient) } else { quotient }
     }
 }
 
@@ -221,6 +224,15 @@ mod tests {
         assert_eq!(as_f64(&above_tie), 1.0 + ulp);
         let below_tie = sum(&[[-1.0, 1.0, 1.0], [-ulp, 0.5, 1.0], [1e-200, 1e-99, 1.0]]);
         assert_eq!(as_f64(&below_tie), -1.0);
+    }
+
+    #[test]
+    fn quotients_beyond_the_range_keep_their_sign() {
+        let (huge, tiny) = (sum(&[[1e300, 1e300, 1.0]]), sum(&[[-1e-300, 1e-300, 1.0]]));
+        let (huge, tiny) = (huge.value(), tiny.value());
+        assert_eq!(tiny.divided_by(huge), -f64::from_bits(1));
+        assert_eq!(huge.divided_by(tiny), f64::NEG_INFINITY);
+        assert_eq!(Scaled::from(0.0).divided_by(tiny), 0.0);
     }
 
     proptest! {
