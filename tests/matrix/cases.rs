@@ -120,7 +120,7 @@ fn ball_cases<const K: usize>(seed: u64) -> Vec<Case<Balls<K>, K>> {
     let case = |name, seed, balls| {
         let balls = Balls::new(balls).expect("test balls are finite");
         // Balls are not decided exactly: from afar, rounding hides where they end.
-        Case::new(name, seed, 1e3, balls)
+        Case::new(name, seed, 1e5, balls)
     };
     vec![
         case("balls", seed, random_balls(150, 1.0, seed)),

@@ -1,6 +1,8 @@
 //! What is compared.
 
 use crate::cases::{Aimed, Case};
+use kdray::geometry::BoundingSphere;
+use kdray::traverse::Naive;
 use kdray::{BuildOptions, Hit, KdTree, Scene};
 use kdray_tests::Subject;
 use kdray_tests::oracle::{agrees_on_all, agrees_on_closest};
@@ -57,6 +59,7 @@ pub(crate) fn closest_hit<S: Subject<K>, const K: usize>(
     let found = scene.closest_hit(&aimed.ray);
     same(&found, &aimed.touched.naive.first().copied())?;
     same(&found, &scene.naive().closest_hit(&aimed.ray))?;
+    same(&found, &in_sphere(scene).closest_hit(&aimed.ray))?;
     match &aimed.touched.exact {
         Some(exact) => agrees_on_closest(exact, found.as_ref(), &aimed.ray),
         None => Ok(()),
@@ -70,7 +73,8 @@ pub(crate) fn any_hit<S: Subject<K>, const K: usize>(
 ) -> Result<(), String> {
     let found = scene.any_hit(&aimed.ray);
     same(&found, &!aimed.touched.naive.is_empty())?;
-    same(&found, &scene.naive().any_hit(&aimed.ray))
+    same(&found, &scene.naive().any_hit(&aimed.ray))?;
+    same(&found, &scene.occluder(&aimed.ray).is_some())
 }
 
 /// Every crossing, in order.
@@ -105,6 +109,13 @@ pub(crate) fn count<S: Subject<K>, const K: usize>(
     aimed: &Aimed<K>,
 ) -> Result<(), String> {
     same(&scene.count(&aimed.ray), &aimed.crossed.naive.len())
+}
+
+/// The naive answer, with a sphere for the bounding volume that is tested first.
+fn in_sphere<S: Subject<K>, const K: usize>(
+    scene: &Scene<S, K>,
+) -> Naive<'_, S, BoundingSphere<K>> {
+    Naive::new(scene.primitives(), BoundingSphere::of_aabb(scene.tree().bounds()))
 }
 
 fn same<T: PartialEq + std::fmt::Debug>(found: &T, naive: &T) -> Result<(), String> {

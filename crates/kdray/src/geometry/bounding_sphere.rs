@@ -1,6 +1,6 @@
 //! The sphere as a bounding volume.
 
-use super::{Aabb, BoundingVolume, Interval, Ray};
+use super::{Aabb, BoundingVolume, Interval, Ray, chord, t_above, t_below};
 
 /// A ball in K dimensions that holds an object (S1): cheap to test, loose for long objects.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,28 +26,30 @@ impl<const K: usize> BoundingSphere<K> {
         let farthest = points.into_iter().map(squared).fold(0.0, f64::max);
         Self { center, radius: farthest.sqrt() * (1.0 + 1e-12) }
     }
+
+    /// The sphere around a box, and so around all that lies in it.
+    pub fn of_aabb(aabb: &Aabb<K>) -> Self {
+        let radius = if aabb.is_empty() { -1.0 } else { 0.5 * aabb.diagonal() * (1.0 + 1e-12) };
+        Self { center: aabb.center(), radius }
+    }
 }
 
 impl<const K: usize> BoundingVolume<K> for BoundingSphere<K> {
-    /// Solves |E + D t − center|² = radius² after moving the origin to the point of the line
-    /// nearest to the centre, where the quadratic has no linear term to cancel with.
+    /// As [`Aabb::slab`], the interval is widened by 2^-38 of t.
     fn ray_interval(&self, ray: &Ray<K>) -> Option<Interval> {
-        let to_center: [f64; K] = std::array::from_fn(|k| self.center[k] - ray.origin[k]);
-        let dot = |a: &[f64; K], b: &[f64; K]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
-        let length_squared = dot(&ray.direction, &ray.direction);
-        let t_nearest = dot(&to_center, &ray.direction) / length_squared;
-        let nearest = ray.at(t_nearest);
-        let off: [f64; K] = std::array::from_fn(|k| self.center[k] - nearest[k]);
-        // What rounding may have done to `nearest` is made good by a wider sphere.
-        let scale = to_center.iter().chain(&self.center).fold(self.radius, |m, x| m.max(x.abs()));
-        let radius = self.radius + 16.0 * f64::EPSILON * scale;
-        let half_chord_squared = radius * radius - dot(&off, &off);
-        if self.radius < 0.0 || half_chord_squared < 0.0 {
+        // A wider sphere makes good what rounding does to the point nearest to the centre, by far
+        // less than 16 steps of the largest coordinate: both sides of the chord grow by as much.
+        let distances = (0..K).map(|k| (self.center[k] - ray.origin[k]).abs());
+        let scale = distances.chain(self.center.map(f64::abs)).fold(self.radius, f64::max);
+        let radius = self.radius + 16.0 * f64::EPSILON * scale + f64::MIN_POSITIVE;
+        if self.radius < 0.0 {
             return None;
         }
-        let half = (half_chord_squared / length_squared).sqrt();
-        let inside = Interval { t_min: t_nearest - half, t_max: t_nearest + half };
-        let inside = inside.intersection(ray.interval);
+        let [enter, leave] = chord(ray, &self.center, radius)?;
+        // NaN bounds nothing: the larger and the smaller of it and a number are the number.
+        let Interval { t_min, t_max } = ray.interval;
+        let t_min = t_below(t_min).max(t_below(enter));
+        let inside = Interval { t_min, t_max: t_above(t_max).min(t_above(leave)) };
         (!inside.is_empty()).then_some(inside)
     }
 }
@@ -63,6 +65,19 @@ mod tests {
         assert!((inside.t_min - 6.0).abs() < 1e-9 && (inside.t_max - 14.0).abs() < 1e-9);
         assert!(sphere.ray_interval(&Ray::new([2.1, 0.0, 0.0], [0.0, 0.0, 1.0])).is_none());
         assert!(sphere.ray_interval(&Ray::new([2.0, 0.0, 0.0], [0.0, 0.0, 1.0])).is_some());
+    }
+
+    #[test]
+    fn rays_of_any_length_and_from_anywhere_are_not_lost() {
+        let sphere = BoundingSphere { center: [0.0; 3], radius: 1.0 };
+        for length in [1e-310, 1e-170, 1.0, 1e160, 1e308] {
+            let ray = Ray::new([-3.0, 0.0, 0.0], [length, 0.0, 0.0]);
+            assert!(sphere.ray_interval(&ray).is_some(), "{length}");
+        }
+        for distance in [1e10, 1e100, 1e200, 1e300] {
+            let ray = Ray::new([distance, 0.0, distance], [-1.0, 0.0, -1.0]);
+            assert!(sphere.ray_interval(&ray).is_some(), "{distance}");
+        }
     }
 
     #[test]

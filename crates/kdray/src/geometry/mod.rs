@@ -3,6 +3,7 @@
 mod aabb;
 mod bounding_sphere;
 mod bounding_volume;
+mod chord;
 mod clip;
 mod interval;
 mod plane;
@@ -12,6 +13,7 @@ mod slack;
 pub use aabb::Aabb;
 pub use bounding_sphere::BoundingSphere;
 pub use bounding_volume::BoundingVolume;
+pub(crate) use chord::chord;
 pub use clip::clipped_bounds;
 pub use interval::Interval;
 pub use plane::Plane;

@@ -1,13 +1,15 @@
 //! Circles and spheres.
 
 use super::{Hit, HitRule, Intersect, Primitives, Side};
-use crate::geometry::{Aabb, Ray};
+use crate::geometry::{Aabb, Ray, chord};
 use thiserror::Error;
 
 /// Circles (K = 2) or spheres (K = 3): the set of points at a distance from a centre. A ray that
 /// passes through one meets it twice; one that is tangent misses it.
 ///
-/// Hits are computed in f64, not decided exactly as those of triangles are.
+/// Hits are computed in f64, not decided exactly as those of triangles are. They lie within a
+/// ball's bounds for rays from up to 2^20 times the largest coordinate away; from farther, whether
+/// a ray is told to graze a ball or to pass it by may depend on the tree.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Balls<const K: usize> {
     balls: Vec<([f32; K], f32)>,
@@ -43,7 +45,9 @@ impl<const K: usize> Primitives<K> for Balls<K> {
 
     fn bounds(&self, id: u32) -> Aabb<K> {
         let (center, radius) = self.balls[id as usize];
-        // Rounding outward by a step also covers what the rounding of a hit's t moves it by.
+        // What rounding may move a hit by, see the type's documentation.
+        let reach = center.iter().fold(radius, |reach, c| reach.max(c.abs()));
+        let radius = radius + reach * (1.0 / (1 << 20) as f32);
         Aabb {
             min: center.map(|c| (c - radius).next_down()),
             max: center.map(|c| (c + radius).next_up()),
@@ -54,20 +58,14 @@ impl<const K: usize> Primitives<K> for Balls<K> {
 impl<const K: usize> Intersect<K> for Balls<K> {
     fn intersect(&self, id: u32, ray: &Ray<K>, _rule: HitRule, report: &mut impl FnMut(Hit)) {
         let (center, radius) = self.balls[id as usize];
-        let dot = |a: &[f64; K], b: &[f64; K]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
-        let from_center: [f64; K] = std::array::from_fn(|k| ray.origin[k] - f64::from(center[k]));
-        let length_squared = dot(&ray.direction, &ray.direction);
-        let t_nearest = -dot(&from_center, &ray.direction) / length_squared;
-        let nearest: [f64; K] =
-            std::array::from_fn(|k| from_center[k] + t_nearest * ray.direction[k]);
-        let radius = f64::from(radius);
-        let half_squared = (radius * radius - dot(&nearest, &nearest)) / length_squared;
-        if half_squared <= 0.0 || half_squared.is_nan() {
+        let Some([enter, leave]) = chord(ray, &center.map(f64::from), f64::from(radius)) else {
+            return;
+        };
+        if enter == leave {
             return;
         }
-        let half = half_squared.sqrt();
-        for (t, side) in [(t_nearest - half, Side::Front), (t_nearest + half, Side::Back)] {
-            if ray.interval.contains(t) {
+        for (t, side) in [(enter, Side::Front), (leave, Side::Back)] {
+            if t.is_finite() && ray.interval.contains(t) {
                 report(Hit { t, primitive_id: id, u: 0.0, v: 0.0, side });
             }
         }

@@ -57,6 +57,11 @@ impl<P: Intersect<K>, const K: usize> Scene<P, K> {
         &self.primitives
     }
 
+    /// Gives the primitives back.
+    pub fn into_primitives(self) -> P {
+        self.primitives
+    }
+
     /// The tree.
     pub fn tree(&self) -> &KdTree<K> {
         &self.tree
@@ -68,6 +73,7 @@ impl<P: Intersect<K>, const K: usize> Scene<P, K> {
     }
 
     /// The hit of least t; of several at the same t, the one of the smallest primitive id.
+    #[must_use]
     pub fn closest_hit(&self, ray: &Ray<K>) -> Option<Hit> {
         self.closest_hit_traced(ray, &mut ())
     }
@@ -78,6 +84,7 @@ impl<P: Intersect<K>, const K: usize> Scene<P, K> {
     }
 
     /// Whether there is any hit: whether `ray.interval` is occluded.
+    #[must_use]
     pub fn any_hit(&self, ray: &Ray<K>) -> bool {
         self.any_hit_traced(ray, &mut ())
     }
@@ -85,6 +92,13 @@ impl<P: Intersect<K>, const K: usize> Scene<P, K> {
     /// [`any_hit`](Self::any_hit), watched by `trace`.
     pub fn any_hit_traced(&self, ray: &Ray<K>, trace: &mut impl Trace) -> bool {
         traverse::any_hit(&self.tree, &self.primitives, ray, trace).is_some()
+    }
+
+    /// What [`any_hit`](Self::any_hit) found: some hit, not necessarily the first, but the same
+    /// one on every run.
+    #[must_use]
+    pub fn occluder(&self, ray: &Ray<K>) -> Option<Hit> {
+        traverse::any_hit(&self.tree, &self.primitives, ray, &mut ())
     }
 
     /// Every crossing of a surface, once, by rising t ([`HitRule::Crossing`]), found as they are
@@ -111,6 +125,7 @@ impl<P: Intersect<K>, const K: usize> Scene<P, K> {
 
     /// How many surfaces the ray crosses: the number of [`all_hits`](Self::all_hits). On a closed
     /// mesh it is even for a ray from outside without end, and odd for one from inside.
+    #[must_use]
     pub fn count(&self, ray: &Ray<K>) -> usize {
         self.all_hits(ray).count()
     }

@@ -1,0 +1,73 @@
+//! Where a line passes a ball.
+
+use super::Ray;
+
+/// The two t at which the line of `ray` meets the sphere of `radius` around `center`: equal where
+/// it touches, `None` where it passes by, NaN if the numbers are beyond what f64 holds.
+///
+/// Solves |E + D·t − center|² = radius² from the point of the line nearest to the centre, where the
+/// quadratic has no linear term to cancel with. Lengths and D are scaled to about one first, by
+/// powers of two, so that no square over- or underflows.
+pub(crate) fn chord<const K: usize>(
+    ray: &Ray<K>,
+    center: &[f64; K],
+    radius: f64,
+) -> Option<[f64; 2]> {
+    let from_center: [f64; K] = std::array::from_fn(|k| ray.origin[k] - center[k]);
+    let unit = magnitude(largest(&from_center).max(radius));
+    let speed = magnitude(largest(&ray.direction));
+    let (e, d) = (from_center.map(|x| x / unit), ray.direction.map(|x| x / speed));
+    let radius = radius / unit;
+    let length_squared = dot(&d, &d);
+    let t_nearest = -dot(&e, &d) / length_squared;
+    let nearest: [f64; K] = std::array::from_fn(|k| e[k] + t_nearest * d[k]);
+    let half_squared = (radius * radius - dot(&nearest, &nearest)) / length_squared;
+    if half_squared < 0.0 {
+        return None;
+    }
+    let half = half_squared.sqrt();
+    Some([t_nearest - half, t_nearest + half].map(|t| t * unit / speed))
+}
+
+fn dot<const K: usize>(a: &[f64; K], b: &[f64; K]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+fn largest<const K: usize>(v: &[f64; K]) -> f64 {
+    v.iter().fold(0.0, |largest, x| x.abs().max(largest))
+}
+
+/// The power of two that x is one to two times, for x not below the smallest normal number.
+fn magnitude(x: f64) -> f64 {
+    const EXPONENT: u64 = 0x7ff << 52;
+    f64::from_bits(x.max(f64::MIN_POSITIVE).to_bits() & EXPONENT)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_through_the_middle_is_inside_for_the_diameter() {
+        let ray = Ray::new([0.0; 3], [0.0, 0.0, 0.5]);
+        assert_eq!(chord(&ray, &[0.0, 0.0, 5.0], 2.0), Some([6.0, 14.0]));
+        assert_eq!(chord(&ray, &[2.0, 0.0, 5.0], 2.0), Some([10.0, 10.0]));
+        assert_eq!(chord(&ray, &[2.1, 0.0, 5.0], 2.0), None);
+        assert_eq!(chord(&ray, &[0.0; 3], 0.0), Some([0.0, 0.0]));
+    }
+
+    #[test]
+    fn directions_and_distances_of_any_size_are_met() {
+        for exponent in [-1000, -520, 0, 520, 1000] {
+            let scale = 2.0_f64.powi(exponent);
+            let ray = Ray::new([0.0; 3], [0.0, scale, scale]);
+            let [enter, leave] = chord(&ray, &[0.0, 5.0, 5.0], 1.0).unwrap();
+            let half = 0.5_f64.sqrt();
+            assert!(((5.0 - half) / scale / enter - 1.0).abs() < 1e-15, "2^{exponent}");
+            assert!(((5.0 + half) / scale / leave - 1.0).abs() < 1e-15, "2^{exponent}");
+            let ray = Ray::new([0.0, 0.0, -scale], [0.0, 0.0, 1.0]);
+            let met = chord(&ray, &[0.0; 3], 0.5 * scale);
+            assert_eq!(met, Some([0.5 * scale, 1.5 * scale]), "2^{exponent}");
+        }
+    }
+}
