@@ -1,5 +1,7 @@
 //! Where a ray meets a primitive.
 
+use std::cmp::Ordering;
+
 /// A point at which a ray meets a primitive.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
@@ -18,13 +20,22 @@ pub struct Hit {
 
 impl Hit {
     /// The order of hits along a ray: by t, and for equal t by primitive id.
+    #[inline]
     pub fn precedes(&self, other: &Self) -> bool {
         (self.t, self.primitive_id) < (other.t, other.primitive_id)
+    }
+
+    /// The same order for sorting: ball hits so close that their t are equal are told apart by
+    /// side, the front first.
+    pub fn order(&self, other: &Self) -> Ordering {
+        // Adding zero makes -0 and 0 one.
+        let by_t = (self.t + 0.0).total_cmp(&(other.t + 0.0));
+        by_t.then(self.primitive_id.cmp(&other.primitive_id)).then(self.side.cmp(&other.side))
     }
 }
 
 /// A side of a surface.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Side {
     /// The side that the geometric normal (b−a) x (c−a) points to: seen from here a triangle's
     /// vertices run counter-clockwise. The outside of a ball; the left of a segment.

@@ -4,11 +4,14 @@ use super::{LeafWalk, Trace};
 use crate::geometry::Ray;
 use crate::primitives::{Hit, HitRule, Intersect};
 use crate::tree::KdTree;
+use std::iter::FusedIterator;
 
 /// The hits of a ray by rising t, equal t by rising primitive id, each once.
 ///
 /// Lazy: leaves are visited only as far as the next hit needs. A hit found in a leaf is yielded as
 /// soon as no later leaf can hold an earlier one; till then it is `pending`.
+#[derive(Debug)]
+#[must_use = "hits are found only as they are asked for"]
 pub struct AllHits<'a, P, const K: usize, T = ()> {
     primitives: &'a P,
     ray: Ray<K>,
@@ -38,23 +41,27 @@ impl<'a, P: Intersect<K>, const K: usize, T: Trace> AllHits<'a, P, K, T> {
         let t_max = self.ray.interval.t_max;
         let Some(leaf) = self.walk.next_leaf(t_max, &mut self.trace) else { return false };
         let Self { primitives, ray, rule, trace, pending, last, .. } = self;
+        let before = pending.len();
         for &id in leaf.primitives {
             let mut t = None;
             primitives.intersect(id, ray, *rule, &mut |hit| {
                 t = t.or(Some(hit.t));
-                // A primitive listed by several leaves is found again in each.
                 if last.is_none_or(|last| last.precedes(&hit)) {
-                    let place = pending.partition_point(|other| hit.precedes(other));
-                    if pending.get(place) != Some(&hit) {
-                        pending.insert(place, hit);
-                    }
+                    pending.push(hit);
                 }
             });
             trace.primitive(id, t);
         }
+        if pending.len() > before {
+            pending.sort_by(|a, b| b.order(a));
+            // A primitive listed by several leaves is found again in each.
+            pending.dedup();
+        }
         true
     }
 }
+
+impl<P: Intersect<K>, const K: usize, T: Trace> FusedIterator for AllHits<'_, P, K, T> {}
 
 impl<P: Intersect<K>, const K: usize, T: Trace> Iterator for AllHits<'_, P, K, T> {
     type Item = Hit;

@@ -11,6 +11,7 @@ use arrayvec::ArrayVec;
 /// that runs in a split plane passes the cells on both sides of it one side after the other, and
 /// near a plane intervals overlap by what rounding may hide. So a later leaf may hold an earlier
 /// hit; [`t_next`](Self::t_next) bounds all that are left.
+#[derive(Clone, Debug)]
 pub struct LeafWalk<'a, const K: usize> {
     tree: &'a KdTree<K>,
     ray: Ray<K>,
@@ -19,7 +20,7 @@ pub struct LeafWalk<'a, const K: usize> {
 }
 
 /// A node that the ray has yet to visit.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 struct Waiting {
     node: u32,
     t_near: f64,

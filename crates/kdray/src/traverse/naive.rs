@@ -5,6 +5,7 @@ use crate::primitives::{Hit, HitRule, Intersect};
 
 /// The same queries as a scene's, by testing each primitive after the object's bounding volume
 /// (S1). Slow, and therefore what every tree and traversal is compared with.
+#[derive(Clone, Copy, Debug)]
 pub struct Naive<'a, P, V> {
     primitives: &'a P,
     volume: V,
@@ -62,7 +63,7 @@ impl<'a, P, V> Naive<'a, P, V> {
     {
         let mut hits = Vec::new();
         self.each_hit(ray, rule, |hit| hits.push(hit));
-        hits.sort_by(|a, b| a.t.total_cmp(&b.t).then(a.primitive_id.cmp(&b.primitive_id)));
+        hits.sort_by(Hit::order);
         hits
     }
 }

@@ -72,6 +72,33 @@ pub trait Trace {
 
 impl Trace for () {}
 
+/// So that [`AllHits`](super::AllHits), which owns its watcher, can be lent one.
+impl<T: Trace + ?Sized> Trace for &mut T {
+    fn root(&mut self, interval: Option<Interval>) {
+        (**self).root(interval);
+    }
+
+    fn split(&mut self, step: &SplitStep) {
+        (**self).split(step);
+    }
+
+    fn leaf(&mut self, step: &LeafStep) {
+        (**self).leaf(step);
+    }
+
+    fn primitive(&mut self, id: u32, t: Option<f64>) {
+        (**self).primitive(id, t);
+    }
+
+    fn pop(&mut self, node: u32, t_near: f64) {
+        (**self).pop(node, t_near);
+    }
+
+    fn finish_early(&mut self, t: f64, t_near: f64) {
+        (**self).finish_early(t, t_near);
+    }
+}
+
 /// Counts what a query costs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counters {
@@ -166,5 +193,88 @@ impl Trace for StepRecorder {
 
     fn finish_early(&mut self, t: f64, t_near: f64) {
         self.steps.push(Step::FinishEarly { t, t_near });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{Aabb, Ray};
+    use crate::primitives::{HitRule, Segments};
+    use crate::traverse::{AllHits, any_hit, closest_hit};
+    use crate::tree::{KdTree, Node};
+
+    /// Uprights at x = 0.5 and 1.5, a plane between them at 1.
+    fn two_uprights() -> (KdTree<2>, Segments) {
+        let tree = KdTree {
+            bounds: Aabb { min: [0.0; 2], max: [2.0, 1.0] },
+            nodes: vec![Node::inner(0, 1.0, 2), Node::leaf(0, 1), Node::leaf(1, 1)],
+            references: vec![0, 1],
+        };
+        let upright = |x| [[x, 0.0], [x, 1.0]];
+        (tree, Segments::new(vec![upright(0.5), upright(1.5)]).unwrap())
+    }
+
+    const FROM_THE_LEFT: [[f64; 2]; 2] = [[-1.0, 0.5], [1.0, 0.0]];
+
+    /// What was done, in a word each.
+    fn words(recorder: &StepRecorder) -> Vec<String> {
+        let word = |step: &Step| match step {
+            Step::Root(interval) => format!("root {}", interval.is_some()),
+            Step::Split(step) => format!("{:?} {}", step.case, step.stack_depth),
+            Step::Leaf(step) => format!("leaf {}", step.node),
+            Step::Primitive { id, t } => format!("primitive {id} {t:?}"),
+            Step::Pop { node, .. } => format!("pop {node}"),
+            Step::FinishEarly { t, .. } => format!("finish {t}"),
+        };
+        recorder.steps.iter().map(word).collect()
+    }
+
+    #[test]
+    fn every_step_of_every_query_is_recorded() {
+        let (tree, uprights) = two_uprights();
+        let [origin, direction] = FROM_THE_LEFT;
+        let ray = Ray::new(origin, direction);
+        let start = ["root true", "pop 0", "NearThenFar 1", "leaf 1", "primitive 0 Some(1.5)"];
+        let mut seen = StepRecorder::default();
+        closest_hit(&tree, &uprights, &ray, &mut seen);
+        assert_eq!(words(&seen), [&start[..], &["finish 1.5"]].concat());
+        let mut seen = StepRecorder::default();
+        any_hit(&tree, &uprights, &ray, &mut seen);
+        assert_eq!(words(&seen), start);
+        let mut seen = StepRecorder::default();
+        assert_eq!(AllHits::new(&tree, &uprights, &ray, HitRule::Crossing, &mut seen).count(), 2);
+        let rest = ["pop 2", "leaf 2", "primitive 1 Some(2.5)"];
+        assert_eq!(words(&seen), [&start[..], &rest].concat());
+    }
+
+    #[test]
+    fn the_cases_are_the_lectures() {
+        let (tree, uprights) = two_uprights();
+        let [origin, direction] = FROM_THE_LEFT;
+        let case = |t_min, t_max| {
+            let mut seen = StepRecorder::default();
+            let ray = Ray::new(origin, direction).with_interval(t_min, t_max);
+            closest_hit(&tree, &uprights, &ray, &mut seen);
+            let split = |step: &Step| match step {
+                Step::Split(step) => Some((step.case, step.t_split)),
+                _ => None,
+            };
+            seen.steps.iter().find_map(split).unwrap()
+        };
+        assert_eq!(case(0.0, 9.0), (TraversalCase::NearThenFar, 2.0));
+        assert_eq!(case(0.0, 1.9), (TraversalCase::NearOnly, 2.0));
+        assert_eq!(case(2.1, 9.0), (TraversalCase::FarOnly, 2.0));
+    }
+
+    #[test]
+    fn counters_count_what_the_steps_show() {
+        let (tree, uprights) = two_uprights();
+        let [origin, direction] = FROM_THE_LEFT;
+        let mut counters = Counters::default();
+        let ray = Ray::new(origin, direction);
+        AllHits::new(&tree, &uprights, &ray, HitRule::Crossing, &mut counters).for_each(drop);
+        assert_eq!(counters, Counters { splits: 1, leaves: 2, primitives: 2 });
+        assert_eq!(counters.nodes(), 3);
     }
 }
