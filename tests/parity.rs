@@ -33,14 +33,14 @@ fn assert_odd(name: &str, found: &Parity) {
 
 #[test]
 fn spheres_count_even_from_outside() {
-    for strategy in [Strategy::Middle, Strategy::Median, Strategy::RoundRobin, Strategy::Sah] {
+    for strategy in Strategy::ALL {
         assert_even("sphere", &from_outside(&scene(sphere(16), strategy), 1));
     }
 }
 
 #[test]
 fn tori_count_even_from_outside() {
-    for strategy in [Strategy::Middle, Strategy::Median, Strategy::RoundRobin, Strategy::Sah] {
+    for strategy in Strategy::ALL {
         assert_even("torus", &from_outside(&scene(torus(24, 16), strategy), 1));
     }
 }

@@ -1,19 +1,14 @@
 //! Closest hits through trees, against every triangle.
 
+use crate::Subject;
 use crate::flat::Flat;
+use crate::oracle::{agrees_on_all, agrees_on_closest};
 use crate::rays::random;
 use crate::shared::CameraInfo;
+use kdray::primitives::HitRule;
 use kdray::{BuildOptions, Hit, Ray, Scene, Strategy, TriangleMesh};
 use rand::RngExt;
 use rayon::prelude::*;
-
-/// The strategies by the names that the command line uses.
-pub const STRATEGIES: [(&str, Strategy); 4] = [
-    ("middle", Strategy::Middle),
-    ("median", Strategy::Median),
-    ("round-robin", Strategy::RoundRobin),
-    ("sah", Strategy::Sah),
-];
 
 /// What a comparison found.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -66,6 +61,32 @@ pub fn random_rays(mesh: &TriangleMesh, count: usize, seed: u64) -> Vec<Ray<3>> 
         std::array::from_fn(|k| center[k] + half[k] * random.random_range(-1.0..=1.0))
     };
     (0..count).map(|_| Ray::through(point(), point())).collect()
+}
+
+/// A scene's answers to all queries, compared with rational arithmetic on every triangle.
+///
+/// # Errors
+/// A sentence about the first ray with a wrong answer.
+pub fn agrees_with_the_oracle(scene: &Scene, rays: &[Ray<3>]) -> Result<(), String> {
+    rays.par_iter()
+        .try_for_each(|ray| is_right(scene, ray).map_err(|error| format!("{ray:?}: {error}")))
+}
+
+fn is_right(scene: &Scene, ray: &Ray<3>) -> Result<(), String> {
+    let exact = |rule| scene.primitives().exact_hits(ray, rule).unwrap_or_default();
+    let (touched, crossed) = (exact(HitRule::Touching), exact(HitRule::Crossing));
+    let closest = scene.closest_hit(ray);
+    agrees_on_closest(&touched, closest.as_ref(), ray)?;
+    if scene.any_hit(ray) != closest.is_some() {
+        return Err("any_hit and closest_hit differ".to_owned());
+    }
+    let hits: Vec<Hit> = scene.all_hits(ray).collect();
+    agrees_on_all(&crossed, &hits, ray)?;
+    agrees_on_all(&touched, &scene.all_touched(ray).collect::<Vec<_>>(), ray)?;
+    match scene.count(ray) {
+        count if count == hits.len() => Ok(()),
+        count => Err(format!("count is {count}, but there are {} hits", hits.len())),
+    }
 }
 
 /// The answers without a tree.

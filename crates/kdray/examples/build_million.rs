@@ -1,5 +1,5 @@
 //! How long a tree over a million triangles takes, by every strategy:
-//! `cargo run --release -p kdray --example build_million [terrain|soup] [TRIANGLES] [STRATEGY]`,
+//! `cargo run --release -p kdray --example build_million [terrain|soup] [TRIANGLES] [sah|...]`,
 //! under `/usr/bin/time -v` also the peak of memory. `RAYON_NUM_THREADS` sets the threads.
 
 use kdray::{BuildOptions, KdTree, Strategy, TriangleMesh};
@@ -54,13 +54,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
     let kind = arguments.next().unwrap_or("terrain".to_owned());
     let triangles = arguments.next().map_or(Ok(1_000_000), |n| n.parse())?;
-    let only = arguments.next();
+    let only: Option<Strategy> = arguments.next().map(|name| name.parse()).transpose()?;
     let mesh = if kind == "soup" { soup(triangles)? } else { terrain(triangles)? };
     let mut out = std::io::stdout().lock();
-    for strategy in [Strategy::Sah, Strategy::Middle, Strategy::Median, Strategy::RoundRobin] {
-        if only.as_ref().is_some_and(|only| *only != format!("{strategy:?}")) {
-            continue;
-        }
+    for strategy in only.map_or(Strategy::ALL.to_vec(), |only| vec![only]) {
         let options = BuildOptions::for_strategy(strategy);
         let start = Instant::now();
         let tree = KdTree::build(&mesh, &options)?;
@@ -68,7 +65,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let stats = tree.stats(mesh.triangles().len(), &options.cost);
         writeln!(
             out,
-            "{strategy:?}: {seconds:.2} s, {} triangles, {} nodes, depth {}, {:.2} references a \
+            "{strategy}: {seconds:.2} s, {} triangles, {} nodes, depth {}, {:.2} references a \
              triangle, SAH cost {:.1}, {:.1} MB",
             stats.primitives,
             stats.nodes,

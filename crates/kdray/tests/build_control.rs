@@ -4,9 +4,9 @@
 
 mod build_common;
 
-use build_common::{STRATEGIES, all_options, mesh, random_soup};
+use build_common::{all_options, mesh, random_soup};
 use kdray::primitives::Primitives;
-use kdray::{Aabb, BuildError, BuildOptions, KdTree};
+use kdray::{Aabb, BuildError, BuildOptions, KdTree, Strategy};
 use std::ops::ControlFlow;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -31,7 +31,7 @@ fn progress_rises_to_one() {
 #[test]
 fn a_build_can_be_cancelled_at_any_report() {
     let mesh = mesh(random_soup(20_000, 0.02, false, 22));
-    for strategy in STRATEGIES {
+    for strategy in Strategy::ALL {
         for stop_at in [0, 1, 2, 5, 20] {
             let reports = AtomicUsize::new(0);
             let progress = |_| {

@@ -4,8 +4,7 @@
 
 mod build_common;
 
-use build_common::STRATEGIES;
-use kdray::{BuildOptions, KdTree, TriangleMesh};
+use kdray::{BuildOptions, KdTree, Strategy, TriangleMesh};
 use std::path::PathBuf;
 
 /// The uncompressed meshes of the scenes folder, if there is one.
@@ -54,7 +53,7 @@ fn scenes_have_valid_trees_below_the_quota() {
         let name = path.file_stem().unwrap().to_str().unwrap();
         let mesh = read(&path);
         let count = mesh.triangles().len();
-        for options in STRATEGIES.map(BuildOptions::for_strategy) {
+        for options in Strategy::ALL.map(BuildOptions::for_strategy) {
             let tree = KdTree::build(&mesh, &options).unwrap();
             tree.validate(&mesh).unwrap_or_else(|error| panic!("{name}, {options:?}: {error}"));
             let stats = tree.stats(count, &options.cost);

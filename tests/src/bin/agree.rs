@@ -1,8 +1,11 @@
 //! `cargo xtask agree`: closest hits on the scenes of scenes.json, with every strategy, against
-//! testing every triangle. Ends with failure on any difference.
+//! testing every triangle; and all queries for some rays of each against rational arithmetic.
+//! Ends with failure on any difference.
 
-use kdray_tests::agree::{self, STRATEGIES};
+use kdray::{BuildOptions, Ray, Scene, Strategy, TriangleMesh};
+use kdray_tests::agree;
 use kdray_tests::command_line::Arguments;
+use kdray_tests::rays::Archer;
 use kdray_tests::shared::{SceneInfo, load_mesh, scenes};
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -13,6 +16,9 @@ const SMALL: usize = 100_000;
 
 /// Width and height of that picture.
 const VIEW: usize = 512;
+
+/// How many of a scene's rays, and about as many aimed ones, rational arithmetic is asked about.
+const ORACLE: usize = 110;
 
 /// How many random rays larger scenes are looked at with.
 const RANDOM: usize = 100_000;
@@ -59,21 +65,36 @@ fn look_at(
     let (name, triangles, rays_count) = (&scene.name, mesh.triangles().len(), rays.len());
     write!(out, "{name:22} {triangles:9} {rays_count:7} {hits:7} {seconds:5.1} s ")?;
     let mut good = true;
-    for (name, strategy) in STRATEGIES {
-        if !arguments.chosen("--strategies", name) {
+    for strategy in Strategy::ALL {
+        if !arguments.chosen("--strategies", strategy.name()) {
             continue;
         }
         let started = Instant::now();
         let found = agree::compare(&mesh, strategy, &rays, &answers);
         let seconds = started.elapsed().as_secs_f64();
         let (a, b, c) = (found.hit_or_miss, found.primitive, found.other);
-        write!(out, " {name} {a}/{b}/{c} ({seconds:.1} s)")?;
+        write!(out, " {strategy} {a}/{b}/{c} ({seconds:.1} s)")?;
         if let Some(example) = &found.example {
             write!(out, "\n    {example}\n   ")?;
         }
         out.flush()?;
         good &= found.none();
     }
-    writeln!(out)?;
+    good &= ask_oracle(mesh, &rays, out)?;
     Ok(good)
+}
+
+/// Compares a sample of the rays, and rays aimed at vertices, edges and faces, with the oracle.
+fn ask_oracle(mesh: TriangleMesh, rays: &[Ray], out: &mut impl Write) -> io::Result<bool> {
+    let mut sample = Archer::new(&mesh, 5).all_kinds(ORACLE / 11, 1e3);
+    sample.extend(rays.iter().step_by(rays.len().div_ceil(ORACLE).max(1)));
+    let started = Instant::now();
+    let scene = Scene::build(mesh, &BuildOptions::default()).map_err(io::Error::other)?;
+    let agrees = agree::agrees_with_the_oracle(&scene, &sample);
+    let seconds = started.elapsed().as_secs_f64();
+    match &agrees {
+        Ok(()) => writeln!(out, " oracle {} rays ({seconds:.1} s)", sample.len())?,
+        Err(error) => writeln!(out, "\n    the oracle says otherwise: {error}")?,
+    }
+    Ok(agrees.is_ok())
 }

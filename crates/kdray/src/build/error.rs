@@ -1,13 +1,18 @@
 //! Why there is no tree.
 
+use crate::tree::CostModelError;
 use thiserror::Error;
 
 /// Why a tree could not be built.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
 pub enum BuildError {
     /// The progress callback asked to stop.
     #[error("the build was cancelled")]
     Cancelled,
+    /// The cost model is out of range.
+    #[error(transparent)]
+    CostModel(#[from] CostModelError),
     /// A primitive's box has a NaN or infinite bound.
     #[error("the bounds of primitive {0} are not finite; mend or drop it")]
     NonFiniteBounds(u32),

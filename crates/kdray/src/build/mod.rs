@@ -19,12 +19,14 @@ mod reference;
 mod round_robin;
 mod sah;
 mod steps;
+mod strategy;
 mod subtree;
 
-pub use crate::tree::{CostModel, Termination};
+pub use crate::tree::{CostModel, CostModelError, Termination};
 pub use error::BuildError;
-pub use options::{BuildOptions, SahBuilder, Strategy};
+pub use options::{BuildOptions, SahBuilder};
 pub use progress::BuildProgress;
+pub use strategy::{Strategy, UnknownStrategy};
 
 use crate::primitives::Primitives;
 use crate::tree::KdTree;
@@ -60,6 +62,7 @@ impl<const K: usize> KdTree<K> {
         const { assert!(K >= 1 && K <= 3, "a node has room for three axes") };
         let progress = &Progress::new(progress);
         let cost = options.cost;
+        cost.check()?;
         match (options.strategy, options.sah_builder) {
             (Strategy::Middle, _) => {
                 Build { primitives, strategy: &middle::Middle, options, progress }.run()

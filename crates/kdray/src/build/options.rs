@@ -1,21 +1,7 @@
 //! What to build.
 
-use super::CostModel;
+use super::{CostModel, Strategy};
 use crate::tree::MAX_DEPTH;
-
-/// How the splitting plane is chosen (S7 to S10).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Strategy {
-    /// The middle of the box's longest side.
-    Middle,
-    /// The median of the primitives' centroids on the longest side: as many left as right.
-    Median,
-    /// The axes in turn, X → Y → Z → X, each cut in the middle of the box.
-    RoundRobin,
-    /// The plane of least cost by the surface area heuristic.
-    #[default]
-    Sah,
-}
 
 /// How [`Strategy::Sah`] counts the primitives on the sides of its candidates. All builders give
 /// the same tree bit for bit.

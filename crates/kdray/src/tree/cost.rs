@@ -1,5 +1,7 @@
 //! The surface area heuristic's cost (S10), which nothing else knows the formula of.
 
+use thiserror::Error;
+
 /// What the surface area heuristic weighs.
 ///
 /// A random line that meets a box meets a box inside it with a chance of S_child / S, the ratio of
@@ -31,6 +33,21 @@ pub enum Termination {
     LimitsOnly,
 }
 
+/// Why no tree can be built by a cost model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum CostModelError {
+    /// The cost of visiting an inner node is out of range.
+    #[error("the cost of a traversal step is negative or not finite; give 0 or more")]
+    Traversal,
+    /// The cost of testing a primitive is out of range.
+    #[error("the cost of an intersection test is negative or not finite; give 0 or more")]
+    Intersection,
+    /// The empty-space bonus is out of range.
+    #[error("the bonus for empty space is out of range; give a number from 0 to 1")]
+    EmptyBonus,
+}
+
 impl Default for CostModel {
     fn default() -> Self {
         Self {
@@ -55,6 +72,22 @@ impl CostModel {
         empty_bonus: 0.0,
         termination: Termination::LimitsOnly,
     };
+
+    /// Says what, if anything, keeps a tree from being built by this: costs that are negative or
+    /// not finite, or a bonus that is not from 0 to 1.
+    pub fn check(&self) -> Result<(), CostModelError> {
+        let is_cost = |x: f64| x.is_finite() && x >= 0.0;
+        if !is_cost(self.traversal) {
+            return Err(CostModelError::Traversal);
+        }
+        if !is_cost(self.intersection) {
+            return Err(CostModelError::Intersection);
+        }
+        if !(0.0..=1.0).contains(&self.empty_bonus) {
+            return Err(CostModelError::EmptyBonus);
+        }
+        Ok(())
+    }
 
     /// The cost of a leaf of `count` primitives, for a line that meets it.
     pub fn leaf(&self, count: usize) -> f64 {
@@ -88,5 +121,20 @@ mod tests {
         assert_eq!(cost.split([0.5, 0.75], [0, 4]), (1.0 + 1.5 * 3.0) * 0.75);
         assert!(cost.is_worth(5.9, 4) && !cost.is_worth(6.0, 4));
         assert!(CostModel::LECTURE.is_worth(1e9, 1));
+    }
+
+    #[test]
+    fn costs_out_of_range_are_named() {
+        let good = CostModel::default();
+        for bad in [-1.0, f64::NAN, f64::INFINITY] {
+            let traversal = CostModel { traversal: bad, ..good };
+            assert_eq!(traversal.check(), Err(CostModelError::Traversal));
+            let intersection = CostModel { intersection: bad, ..good };
+            assert_eq!(intersection.check(), Err(CostModelError::Intersection));
+            let empty_bonus = CostModel { empty_bonus: bad, ..good };
+            assert_eq!(empty_bonus.check(), Err(CostModelError::EmptyBonus));
+        }
+        assert_eq!(good.check(), Ok(()));
+        assert_eq!(CostModel::LECTURE.check(), Ok(()));
     }
 }

@@ -6,7 +6,7 @@ mod node;
 mod stats;
 mod validate;
 
-pub use cost::{CostModel, Termination};
+pub use cost::{CostModel, CostModelError, Termination};
 pub use error::TreeError;
 pub use node::{Node, NodeKind};
 pub use stats::TreeStats;

@@ -7,12 +7,9 @@ use kdray::{BuildOptions, Strategy, TriangleMesh};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
-pub(crate) const STRATEGIES: [Strategy; 4] =
-    [Strategy::Middle, Strategy::Median, Strategy::RoundRobin, Strategy::Sah];
-
 /// For each strategy its good settings, and the hardest: a leaf size of one, which is good for SAH.
 pub(crate) fn all_options() -> Vec<BuildOptions> {
-    STRATEGIES
+    Strategy::ALL
         .into_iter()
         .map(BuildOptions::for_strategy)
         .flat_map(|options| match options.strategy {
