@@ -12,7 +12,7 @@ const MODULES: [&str; 7] =
 
 /// What the library `kdray` may need: containers, casts, vectors, threads, error messages. Nothing
 /// that reads, writes or prints.
-const LIBRARY_MAY_USE: [&str; 5] = ["arrayvec", "bytemuck", "glam", "rayon", "thiserror"];
+const LIBRARY_MAY_USE: [&str; 4] = ["arrayvec", "glam", "rayon", "thiserror"];
 
 fn metadata() -> Metadata {
     let manifest = Path::new(env!("CARGO_MANIFEST_DIR")).join("../Cargo.toml");
