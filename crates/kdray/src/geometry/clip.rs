@@ -3,8 +3,11 @@
 use super::Aabb;
 use arrayvec::ArrayVec;
 
-/// Room for a triangle cut by six planes, each of which adds one vertex at most.
-type Polygon<const K: usize> = ArrayVec<Vertex<K>, 12>;
+/// Room for a polygon cut by the 2·K planes of a cell, each of which adds one vertex at most.
+const MOST_VERTICES: usize = 12;
+
+/// A polygon while it is being cut.
+type Polygon<const K: usize> = ArrayVec<Vertex<K>, MOST_VERTICES>;
 
 /// A vertex of the polygon while it is being cut.
 #[derive(Clone, Copy)]
@@ -24,8 +27,9 @@ struct Vertex<const K: usize> {
 /// flat.
 ///
 /// # Panics
-/// If the polygon has more than three vertices in 3-D or 2-D beyond what twelve cut vertices hold.
+/// If the polygon has more than 12 − 2·K vertices: 8 in the plane, 6 in space.
 pub fn clipped_bounds<const K: usize>(polygon: &[[f32; K]], cell: &Aabb<K>) -> Option<Aabb<K>> {
+    assert!(polygon.len() + 2 * K <= MOST_VERTICES, "a polygon of {} vertices", polygon.len());
     let whole = Aabb::of_points(polygon.iter().copied());
     let limit = whole.intersection(cell);
     if limit.is_empty() || limit == whole {

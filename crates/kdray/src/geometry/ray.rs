@@ -21,6 +21,7 @@ pub struct Ray<const K: usize = 3> {
 
 /// Why a ray cannot be traced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
 pub enum RayError {
     /// A coordinate of the origin is infinite or NaN.
     #[error("the ray's origin is not finite; give finite coordinates")]

@@ -15,6 +15,7 @@ pub struct TriangleMesh {
 
 /// Why a mesh cannot be used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
 pub enum MeshError {
     /// A triangle names a vertex that is not there.
     #[error(
@@ -42,12 +43,15 @@ pub enum MeshError {
 }
 
 impl TriangleMesh {
+    /// A tree's indices have 30 bits.
+    const MAX_TRIANGLES: usize = 1 << 30;
+
     /// A mesh of `triangles` over `vertices`. Vertices that no triangle uses may be anything.
     ///
     /// # Errors
     /// The first triangle that has an index out of range or a vertex that is not finite.
     pub fn new(vertices: Vec<[f32; 3]>, triangles: Vec<[u32; 3]>) -> Result<Self, MeshError> {
-        if triangles.len() >= 1 << 30 {
+        if triangles.len() >= Self::MAX_TRIANGLES {
             return Err(MeshError::TooManyTriangles(triangles.len()));
         }
         for (index, triangle) in triangles.iter().enumerate() {
@@ -83,7 +87,11 @@ impl TriangleMesh {
         soup: impl IntoIterator<Item = [V; 3]>,
     ) -> Result<Self, MeshError> {
         let vertices: Vec<[f32; 3]> = soup.into_iter().flatten().map(Into::into).collect();
-        let triangles = (0..vertices.len() as u32 / 3).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]);
+        let count = vertices.len() / 3;
+        if count >= Self::MAX_TRIANGLES {
+            return Err(MeshError::TooManyTriangles(count));
+        }
+        let triangles = (0..count as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]);
         Self::new(vertices, triangles.collect())
     }
 
