@@ -16,6 +16,8 @@ pub struct SceneInfo {
     pub triangles: usize,
     /// Where it is best seen from; some scenes have none.
     pub camera: Option<CameraInfo>,
+    /// Where a lamp lights it well.
+    pub point_light: Option<[f64; 3]>,
 }
 
 /// A camera of `scenes.json`.
@@ -29,6 +31,13 @@ pub struct CameraInfo {
     pub up: [f64; 3],
     /// The vertical field of view in degrees.
     pub vfov_deg: f64,
+}
+
+impl SceneInfo {
+    /// Where its file lies.
+    pub fn path(&self) -> PathBuf {
+        folder().join(&self.file)
+    }
 }
 
 /// All scenes, or `None` if the folder is not there. Then this says so, or panics if the
@@ -58,7 +67,7 @@ pub fn scenes() -> Option<Vec<SceneInfo>> {
 /// A sentence that names the file.
 pub fn load_mesh(scene: &SceneInfo) -> Result<TriangleMesh, String> {
     let options = LoadOptions { drop_bad: true, ..LoadOptions::default() };
-    let path = folder().join(&scene.file);
+    let path = scene.path();
     let model = load(&path, &options).map_err(|error| error.to_string())?;
     TriangleMesh::new(model.vertices, model.triangles).map_err(|error| error.to_string())
 }

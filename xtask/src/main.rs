@@ -3,6 +3,7 @@
 mod agree;
 mod lint;
 mod parity;
+mod pixels;
 mod steps;
 mod test;
 
@@ -27,6 +28,8 @@ enum Task {
     Agree(agree::Options),
     /// Rays at every vertex and edge of closed meshes: `count` must be even. In a release build.
     Parity(parity::Options),
+    /// Pictures of real scenes: every strategy must give the same, byte for byte.
+    Pixels(pixels::Options),
 }
 
 fn main() -> ExitCode {
@@ -35,6 +38,7 @@ fn main() -> ExitCode {
         Task::Test => test::run(),
         Task::Agree(options) => agree::run(&options),
         Task::Parity(options) => parity::run(&options),
+        Task::Pixels(options) => pixels::run(&options),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
