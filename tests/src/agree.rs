@@ -5,6 +5,7 @@ use crate::flat::Flat;
 use crate::oracle::{agrees_on_all, agrees_on_closest};
 use crate::rays::random;
 use crate::shared::CameraInfo;
+use glam::DVec3;
 use kdray::primitives::HitRule;
 use kdray::{BuildOptions, Hit, Ray, Scene, Strategy, TriangleMesh};
 use rand::RngExt;
@@ -32,15 +33,15 @@ impl Differences {
 
 /// The rays of a picture of `size` x `size` pixels, through the middle of each.
 pub fn view(camera: &CameraInfo, size: usize) -> Vec<Ray<3>> {
-    let forward = unit(minus(camera.look_at, camera.eye));
-    let right = unit(cross(forward, camera.up));
-    let up = cross(right, forward);
+    let [eye, look_at, up] = [camera.eye, camera.look_at, camera.up].map(DVec3::from);
+    let forward = (look_at - eye).normalize();
+    let right = forward.cross(up).normalize();
+    let up = right.cross(forward);
     let half = (camera.vfov_deg.to_radians() / 2.0).tan();
     let place = |i: usize| (2.0 * (i as f64 + 0.5) / size as f64 - 1.0) * half;
     let ray = |(x, y): (usize, usize)| {
         let (x, y) = (place(x), -place(y));
-        let direction = std::array::from_fn(|k| forward[k] + x * right[k] + y * up[k]);
-        Ray::new(camera.eye, direction)
+        Ray::new(eye, forward + x * right + y * up)
     };
     (0..size).flat_map(|y| (0..size).map(move |x| (x, y))).map(ray).collect()
 }
@@ -121,20 +122,4 @@ pub fn compare(
         differences.example.get_or_insert_with(example);
     }
     differences
-}
-
-fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|k| a[k] - b[k])
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|k| {
-        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        a[i] * b[j] - a[j] * b[i]
-    })
-}
-
-fn unit(a: [f64; 3]) -> [f64; 3] {
-    let length = a.iter().map(|x| x * x).sum::<f64>().sqrt();
-    a.map(|x| x / length)
 }

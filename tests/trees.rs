@@ -1,0 +1,22 @@
+//! Trees of every strategy over the smaller scenes beside the checkout are valid.
+
+use kdray::{BuildOptions, KdTree, Strategy};
+use kdray_tests::shared::{load_mesh, scenes};
+
+/// Scenes up to this many triangles are built.
+const MOST: usize = 60_000;
+
+#[test]
+fn scenes_have_valid_trees_below_the_quota() {
+    for info in scenes().into_iter().flatten().filter(|info| info.triangles <= MOST) {
+        let mesh = load_mesh(&info).expect("the scene loads");
+        let count = mesh.triangles().len();
+        for options in Strategy::ALL.map(BuildOptions::for_strategy) {
+            let tree = KdTree::build(&mesh, &options).expect("the scene is valid");
+            assert_eq!(tree.validate(&mesh), Ok(()), "{}, {options:?}", info.name);
+            let references = tree.stats(count, &options.cost).references;
+            let quota = BuildOptions::reference_quota(count) as usize;
+            assert!(references <= quota, "{}, {options:?}: {references}", info.name);
+        }
+    }
+}
