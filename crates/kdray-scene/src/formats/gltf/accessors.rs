@@ -64,6 +64,15 @@ impl<'a> Accessors<'a> {
         Self { document, buffers, budget }
     }
 
+    /// Counts numbers that are about to take memory, or refuses them.
+    pub(super) fn charge(&self, numbers: u64, path: &str) -> Result<(), LoadError> {
+        let left = self.budget.get().checked_sub(numbers).ok_or_else(|| {
+            self.document.invalid(path, "there are many more numbers than bytes in buffers")
+        })?;
+        self.budget.set(left);
+        Ok(())
+    }
+
     /// The elements of an accessor, which must be of so many numbers; if they are fewer than N, they
     /// are filled up with 1, as colours without alpha are.
     pub(super) fn vectors<const N: usize>(
@@ -84,9 +93,7 @@ impl<'a> Accessors<'a> {
         if !numbers.contains(&components) || components > N || !is_plain {
             return Err(invalid(&format!("elements of {components} numbers do not belong here")));
         }
-        let left = self.budget.get().checked_sub(accessor.count.0.saturating_mul(N as u64));
-        let left = left.ok_or_else(|| invalid("there are many more numbers than bytes"))?;
-        self.budget.set(left);
+        self.charge(accessor.count.0.saturating_mul(N as u64), &path)?;
         let normalized = accessor.normalized;
         let layout = Layout { component: component.0, components, normalized };
         let mut elements = self.dense(accessor, &layout, &path)?;

@@ -22,8 +22,8 @@ use buffers::Buffers;
 use graph::Graph;
 use materials::Materials;
 use meshes::{Flattener, Instance};
+use skins::Skins;
 use std::io::Read;
-use std::rc::Rc;
 
 /// A checked document and the means to report on it.
 #[derive(Clone, Copy)]
@@ -57,12 +57,13 @@ pub(super) fn read(
     let accessors = Accessors::new(document, &buffers);
     let materials = Materials::new(document, &buffers).read(&mut builder)?;
     let mut flattener = Flattener::new(&accessors, &materials);
+    let mut skins = Skins::new(&accessors, &graph);
     let mut instances = Vec::new();
     for node in &graph.visited {
         lamps::add_camera(document, node, &mut builder);
         lamps::add_light(document, node, &mut builder);
         let Some(mesh) = document.root.nodes[node.index].mesh else { continue };
-        let skin = skins::Skin::of_node(&accessors, &graph, node.index)?.map(Rc::new);
+        let skin = skins.of_node(node.index)?;
         for transform in graph::instances(&accessors, node)? {
             instances.push(Instance { mesh: mesh.value(), transform, skin: skin.clone() });
         }
