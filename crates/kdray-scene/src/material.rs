@@ -75,7 +75,7 @@ pub struct Texture {
 }
 
 /// What lies beyond the edge of a texture.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Wrap {
     /// The image again.
     #[default]

@@ -14,10 +14,11 @@ pub(crate) enum Siblings<'a> {
 }
 
 impl Siblings<'_> {
-    /// Opens what a file calls `name`. Backslashes count as slashes. Only regular files below the
-    /// folder, or beside it by `..`, are opened: never an absolute path, which means something only
-    /// on the machine that wrote it; there, the last component is tried instead.
-    pub(crate) fn open(self, name: &str) -> io::Result<(PathBuf, File)> {
+    /// The path of what a file calls `name`, the same for all names of one file. Backslashes count
+    /// as slashes. Only regular files below the folder, or beside it by `..`, are found: never an
+    /// absolute path, which means something only on the machine that wrote it; there, the last
+    /// component is tried instead.
+    pub(crate) fn find(self, name: &str) -> io::Result<PathBuf> {
         let Siblings::In(folder) = self else {
             return Err(io::Error::new(ErrorKind::NotFound, "a stream has no files beside it"));
         };
@@ -36,15 +37,14 @@ impl Siblings<'_> {
         if !std::fs::metadata(&path)?.is_file() {
             return Err(io::Error::new(ErrorKind::InvalidInput, "not a regular file"));
         }
-        let file = File::open(&path)?;
-        Ok((path, file))
+        // Some file systems know no canonical names; there, one name is one file.
+        Ok(path.canonicalize().unwrap_or(path))
     }
+}
 
-    /// All bytes of the file, which may have at most `limit`.
-    pub(crate) fn read(self, name: &str, limit: u64) -> io::Result<Vec<u8>> {
-        let (_, file) = self.open(name)?;
-        let mut bytes = Vec::new();
-        super::Limited::new(file, limit).read_to_end(&mut bytes)?;
-        Ok(bytes)
-    }
+/// All bytes of the file at a path that was found, which may have at most `limit`.
+pub(crate) fn read_file(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    super::Limited::new(File::open(path)?, limit).read_to_end(&mut bytes)?;
+    Ok(bytes)
 }

@@ -60,7 +60,7 @@ impl<'a> Accessors<'a> {
     pub(super) fn new(document: Document<'a>, buffers: &'a Buffers) -> Self {
         // Many accessors may show the same bytes, but there is no sense in many times as many
         // numbers as bytes: a small file could take all memory.
-        let budget = Cell::new((1 << 22) + 16 * buffers.total() as u64);
+        let budget = Cell::new((1 << 22) + 16 * buffers.total());
         Self { document, buffers, budget }
     }
 

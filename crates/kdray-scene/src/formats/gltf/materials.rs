@@ -1,14 +1,14 @@
-//! Materials and textures.
+//! Materials.
 
 use super::Document;
-use super::buffers::{Buffers, read_uri};
+use super::buffers::Buffers;
+use super::textures::Textures;
 use crate::mesh::MeshBuilder;
-use crate::textures::{Encoding, TextureDecoder};
-use crate::{AlphaMode, LoadError, Material, TextureRef, Wrap};
+use crate::textures::Encoding;
+use crate::{AlphaMode, LoadError, Material, TextureRef};
 use ::gltf::json;
-use ::gltf::json::texture::{Info, WrappingMode};
+use ::gltf::json::texture::Info;
 use ::gltf::json::validation::Checked;
-use std::collections::HashMap;
 
 /// What meshes need to know of the materials that the model now has.
 pub(super) struct ReadMaterials {
@@ -22,17 +22,15 @@ impl ReadMaterials {
     }
 }
 
-/// Reads materials, and each image once for each use of its numbers.
+/// Reads materials.
 pub(super) struct Materials<'a> {
     document: Document<'a>,
-    buffers: &'a Buffers,
-    decoder: TextureDecoder,
-    known: HashMap<(usize, Encoding), Option<usize>>,
+    textures: Textures<'a>,
 }
 
 impl<'a> Materials<'a> {
     pub(super) fn new(document: Document<'a>, buffers: &'a Buffers) -> Self {
-        Self { document, buffers, decoder: TextureDecoder::default(), known: HashMap::new() }
+        Self { document, textures: Textures::new(document, buffers) }
     }
 
     /// Adds all materials to the model.
@@ -74,7 +72,7 @@ impl<'a> Materials<'a> {
                     ));
                     return None;
                 }
-                let texture = self.texture(info.index.value(), encoding, builder)?;
+                let texture = self.textures.index(info.index.value(), encoding, builder)?;
                 Some(TextureRef { texture, transform: texture_transform(info) })
             });
         let [r, g, b, opacity] = surface.base_color_factor.0;
@@ -96,48 +94,6 @@ impl<'a> Materials<'a> {
         }
         (material, uv_set)
     }
-
-    /// The index of a texture in the model; none, with a warning, if it cannot be read.
-    fn texture(
-        &mut self,
-        index: usize,
-        encoding: Encoding,
-        builder: &mut MeshBuilder<'_>,
-    ) -> Option<usize> {
-        if let Some(&known) = self.known.get(&(index, encoding)) {
-            return known;
-        }
-        let loaded = match self.load(index, encoding) {
-            Ok(texture) => {
-                builder.model.textures.push(texture);
-                Some(builder.model.textures.len() - 1)
-            }
-            Err(reason) => {
-                builder.warn(format!("textures[{index}] left out: {reason}"));
-                None
-            }
-        };
-        self.known.insert((index, encoding), loaded);
-        loaded
-    }
-
-    fn load(&mut self, index: usize, encoding: Encoding) -> Result<crate::Texture, String> {
-        let root = self.document.root;
-        let texture = root.textures.get(index).ok_or("missing")?;
-        let image = root.get(texture.source).ok_or("no image in a format that is read")?;
-        let sampler = texture.sampler.and_then(|sampler| root.get(sampler));
-        let wrap = sampler.map_or([Wrap::Repeat; 2], |s| [s.wrap_s, s.wrap_t].map(wrap));
-        if let Some(view) = image.buffer_view {
-            let bytes = self.buffers.view(self.document, view).map_err(|e| e.to_string())?;
-            return self.decoder.decode(bytes, encoding, wrap);
-        }
-        let uri = image.uri.as_ref().ok_or("an image without content")?;
-        let bytes = read_uri(self.document, uri).map_err(|error| {
-            let uri: String = uri.chars().take(100).collect();
-            format!("{uri:?}: {error}")
-        })?;
-        self.decoder.decode(&bytes, encoding, wrap)
-    }
 }
 
 fn uv_set_of(info: &Info) -> u32 {
@@ -152,14 +108,6 @@ fn texture_transform(info: &Info) -> [[f32; 3]; 2] {
     let (sin, cos) = transform.rotation.0.sin_cos();
     let ([su, sv], [ou, ov]) = (transform.scale.0, transform.offset.0);
     [[cos * su, sin * sv, ou], [-sin * su, cos * sv, ov]]
-}
-
-fn wrap(mode: Checked<WrappingMode>) -> Wrap {
-    match mode {
-        Checked::Valid(WrappingMode::ClampToEdge) => Wrap::Clamp,
-        Checked::Valid(WrappingMode::MirroredRepeat) => Wrap::Mirror,
-        _ => Wrap::Repeat,
-    }
 }
 
 fn alpha_mode(json: &json::Material) -> AlphaMode {

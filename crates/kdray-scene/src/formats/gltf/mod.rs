@@ -6,12 +6,14 @@
 mod accessors;
 mod buffers;
 mod container;
+mod content;
 mod extensions;
 mod graph;
 mod lamps;
 mod materials;
 mod meshes;
 mod skins;
+mod textures;
 
 use super::Request;
 use crate::mesh::MeshBuilder;

@@ -2,12 +2,14 @@
 
 use super::Request;
 use super::mtl::{self, Map, Statements};
-use crate::input::{Limited, Scanner, peek, utf8};
+use crate::input::{Limited, Scanner, peek, read_file, utf8};
 use crate::mesh::MeshBuilder;
 use crate::textures::{Encoding, TextureDecoder};
 use crate::{AlphaMode, LoadError, Material, TextureRef, Wrap};
-use std::collections::{BTreeSet, HashMap};
-use std::io::ErrorKind;
+use std::collections::{BTreeSet, HashMap, HashSet};
+use std::fs::File;
+use std::io::{self, ErrorKind};
+use std::path::{Path, PathBuf};
 
 /// The materials that faces use, in the order of their first use.
 #[derive(Default)]
@@ -34,8 +36,9 @@ impl Materials {
     /// becomes a warning.
     pub(super) fn finish(self, builder: &mut MeshBuilder<'_>, request: &Request<'_>) {
         let mut defined = HashMap::new();
+        let mut known = HashSet::new();
         for (line, names) in &self.libraries {
-            for statements in read_libraries(*line, names, builder, request) {
+            for statements in read_libraries(*line, names, &mut known, builder, request) {
                 // Of several definitions the first counts.
                 defined.entry(statements.name.clone()).or_insert(statements);
             }
@@ -62,18 +65,29 @@ impl Materials {
     }
 }
 
-/// The materials of the library, or of several libraries with spaces between their names.
+/// The materials of the library, or of several libraries with spaces between their names; none of
+/// those that are known from statements before.
 fn read_libraries(
     line: u64,
     names: &str,
+    known: &mut HashSet<PathBuf>,
     builder: &mut MeshBuilder<'_>,
     request: &Request<'_>,
 ) -> Vec<Statements> {
     let mut materials = Vec::new();
-    let is_one = request.siblings.open(names).is_ok();
+    let is_one = request.siblings.find(names).is_ok();
     let several: Vec<&str> = if is_one { vec![names] } else { names.split_whitespace().collect() };
     for name in several {
-        if let Err(error) = read_library(name, request, &mut materials) {
+        let read = match request.siblings.find(name) {
+            Ok(path) if known.contains(&path) => Ok(()),
+            Ok(path) => {
+                let read = read_library(name, &path, request, &mut materials);
+                known.insert(path);
+                read
+            }
+            Err(source) => Err(LoadError::Io { file: name.to_owned(), source }),
+        };
+        if let Err(error) = read {
             builder.warn(format!("line {line}: material library left out: {error}"));
         }
     }
@@ -82,17 +96,13 @@ fn read_libraries(
 
 fn read_library(
     name: &str,
+    path: &Path,
     request: &Request<'_>,
     materials: &mut Vec<Statements>,
 ) -> Result<(), LoadError> {
-    let (path, file) = request
-        .siblings
-        .open(name)
-        .map_err(|source| LoadError::Io { file: name.to_owned(), source })?;
-    let path = path.display().to_string();
-    let library = Request { file: &path, ..*request };
+    let library = Request { file: name, ..*request };
     let fail = |error| library.read_error(error);
-    let file = Limited::new(file, request.options.max_bytes);
+    let file = Limited::new(File::open(path).map_err(fail)?, request.options.max_bytes);
     let (start, bytes) = peek(Box::new(file), 4).map_err(fail)?;
     let bytes = utf8(bytes, &start).map_err(fail)?;
     let mut scanner = Scanner::new(bytes, &library);
@@ -103,20 +113,22 @@ fn read_library(
     Ok(())
 }
 
-/// Textures by what asks for them, so that each file is read once; none for one that failed.
+/// Textures by their files, so that each is read once; none for one that failed.
 struct Maps<'a> {
     textures: TextureDecoder,
-    known: HashMap<(String, bool), Option<usize>>,
+    /// By the path, or by the name of a file that is not there.
+    known: HashMap<(PathBuf, bool), Option<usize>>,
     request: &'a Request<'a>,
 }
 
 impl Maps<'_> {
     fn texture(&mut self, map: &Map, builder: &mut MeshBuilder<'_>) -> Option<TextureRef> {
-        let key = (map.file.clone(), map.clamp);
+        let found = self.request.siblings.find(&map.file);
+        let key = (found.as_ref().map_or(map.file.as_str().into(), PathBuf::clone), map.clamp);
         let index = match self.known.get(&key) {
             Some(known) => *known,
             None => {
-                let index = self.load(map, builder);
+                let index = self.load(map, found, builder);
                 self.known.insert(key, index);
                 index
             }
@@ -127,10 +139,16 @@ impl Maps<'_> {
         index.map(|texture| TextureRef { texture, transform })
     }
 
-    fn load(&mut self, map: &Map, builder: &mut MeshBuilder<'_>) -> Option<usize> {
+    fn load(
+        &mut self,
+        map: &Map,
+        found: io::Result<PathBuf>,
+        builder: &mut MeshBuilder<'_>,
+    ) -> Option<usize> {
         let wrap = if map.clamp { [Wrap::Clamp; 2] } else { [Wrap::Repeat; 2] };
-        let bytes = self.request.siblings.read(&map.file, self.request.options.max_bytes);
-        let texture = bytes
+        let limit = self.request.options.max_bytes;
+        let texture = found
+            .and_then(|path| read_file(&path, limit))
             .map_err(|error| match error.kind() {
                 ErrorKind::FileTooLarge => "longer than the limit".to_owned(),
                 _ => error.to_string(),

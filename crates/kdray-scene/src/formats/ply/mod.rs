@@ -7,7 +7,7 @@ mod body;
 mod header;
 
 use super::Request;
-use crate::input::Scanner;
+use crate::input::{Scanner, read_file};
 use crate::mesh::{Corner, MeshBuilder};
 use crate::textures::{self, TextureDecoder};
 use crate::{LoadError, Material, Model, Place, TextureRef, Wrap};
@@ -61,7 +61,8 @@ pub(super) fn read(bytes: Box<dyn Read + '_>, request: &Request<'_>) -> Result<M
 
 /// Gives all faces a white material with the texture.
 fn add_texture(name: &str, builder: &mut MeshBuilder<'_>, request: &Request<'_>) {
-    let file = request.siblings.read(name, request.options.max_bytes);
+    let limit = request.options.max_bytes;
+    let file = request.siblings.find(name).and_then(|path| read_file(&path, limit));
     let decoded = file.map_err(|error| error.to_string()).and_then(|file| {
         TextureDecoder::default().decode(&file, textures::Encoding::Srgb, [Wrap::Repeat; 2])
     });
