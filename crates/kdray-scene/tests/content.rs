@@ -74,6 +74,14 @@ fn obj_lines_end_in_any_way() {
 }
 
 #[test]
+fn obj_comments_that_end_in_a_backslash_swallow_no_line() {
+    let start = "# made in C:\\models\\\nv 0 0 0\n  #\\\nv 1 0 0 # D:\\\nv 0 1 0\n";
+    let model = read_text(Format::Obj, &format!("{start}f 1 \\\n2 \\\n3 # \\\nf 1 2 3\n"));
+    let model = model.unwrap();
+    assert_eq!((model.vertices.len(), model.triangles.len()), (3, 2));
+}
+
+#[test]
 fn mtl_materials_become_mirrors_glass_and_lamps() {
     let folder = tempfile::tempdir().unwrap();
     write(

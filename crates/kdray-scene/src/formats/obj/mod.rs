@@ -40,7 +40,7 @@ pub(super) fn read(
     reader.finish()
 }
 
-/// Lines without comments, joined where they end in a backslash.
+/// Lines, joined where they end in a backslash.
 struct Lines<'a> {
     scanner: Scanner<'a>,
     line: Vec<u8>,
@@ -58,7 +58,8 @@ impl Lines<'_> {
         if !self.scanner.line(&mut self.line)? {
             return Ok(None);
         }
-        while self.line.last() == Some(&b'\\') {
+        let mut last = 0;
+        while goes_on(&self.line[last..]) {
             self.line.pop();
             self.line.push(b' ');
             if self.line.len() > MAX_JOINED {
@@ -67,10 +68,16 @@ impl Lines<'_> {
             if !self.scanner.line(&mut self.more)? {
                 break;
             }
+            last = self.line.len();
             self.line.append(&mut self.more);
         }
         Ok(Some((number, String::from_utf8_lossy(&self.line))))
     }
+}
+
+/// A backslash joins the next line, but not one in a comment, such as `# made in C:\models\`.
+fn goes_on(line: &[u8]) -> bool {
+    line.last() == Some(&b'\\') && !line.contains(&b'#')
 }
 
 struct Reader<'a> {
