@@ -80,6 +80,11 @@ fn goes_on(line: &[u8]) -> bool {
     line.last() == Some(&b'\\') && !line.contains(&b'#')
 }
 
+/// Points, lines, free-form curves and surfaces, and settings of old programs.
+const IGNORED: &str = "p l vp deg bmat step cstype curv curv2 surf parm trim hole scrv sp end con \
+    mg bevel c_interp d_interp lod usemap maplib shadow_obj trace_obj ctech stech bsp bzp cdc cdp \
+    res call csh scmp matlib vcn vc";
+
 struct Reader<'a> {
     request: &'a Request<'a>,
     builder: MeshBuilder<'a>,
@@ -116,7 +121,7 @@ impl Reader<'_> {
             "mtllib" => self.materials.libraries.push((line, rest.trim().to_owned())),
             "" | "o" | "g" | "s" => {}
             _ if keyword.starts_with('#') => {}
-            _ if self.known_but_ignored(keyword) => {
+            _ if IGNORED.split(' ').any(|ignored| ignored == keyword) => {
                 *self.ignored.entry(keyword.to_owned()).or_default() += 1;
             }
             _ => {
@@ -126,52 +131,6 @@ impl Reader<'_> {
             }
         }
         Ok(())
-    }
-
-    /// Points, lines, free-form curves and surfaces, and settings of old programs.
-    fn known_but_ignored(&self, keyword: &str) -> bool {
-        const KEYWORDS: [&str; 39] = [
-            "p",
-            "l",
-            "vp",
-            "deg",
-            "bmat",
-            "step",
-            "cstype",
-            "curv",
-            "curv2",
-            "surf",
-            "parm",
-            "trim",
-            "hole",
-            "scrv",
-            "sp",
-            "end",
-            "con",
-            "mg",
-            "bevel",
-            "c_interp",
-            "d_interp",
-            "lod",
-            "usemap",
-            "maplib",
-            "shadow_obj",
-            "trace_obj",
-            "ctech",
-            "stech",
-            "bsp",
-            "bzp",
-            "cdc",
-            "cdp",
-            "res",
-            "call",
-            "csh",
-            "scmp",
-            "matlib",
-            "vcn",
-            "vc",
-        ];
-        KEYWORDS.contains(&keyword)
     }
 
     /// A position, with or without a weight (not used), with or without a colour.
