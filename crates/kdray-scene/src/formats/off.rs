@@ -15,8 +15,9 @@ pub(super) fn read(bytes: Box<dyn Read + '_>, request: &Request<'_>) -> Result<M
     let mut builder = MeshBuilder::new(request);
     let mut corners_of_vertices = Vec::new();
     for index in 0..vertices {
-        lines.row(&mut row, 3, || element("vertex", index))?;
-        builder.model.vertices.push([row[0], row[1], row[2]].map(|number| number.value as f32));
+        let place = || element("vertex", index);
+        lines.row(&mut row, 3, place)?;
+        builder.vertex([row[0], row[1], row[2]].map(|number| number.value as f32), place)?;
         if kind.has_attributes() {
             corners_of_vertices.push(kind.corner(index, &row[3..]));
         }

@@ -39,9 +39,13 @@ struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    fn corner(&mut self, position: [f32; 3]) -> Corner {
-        let vertex = self.welder.index(position, &mut self.builder.model.vertices);
-        Corner { vertex: i64::from(vertex), ..Corner::default() }
+    fn corner(
+        &mut self,
+        position: [f32; 3],
+        place: impl Fn() -> Place,
+    ) -> Result<Corner, LoadError> {
+        let vertex = self.welder.index(position, &mut self.builder, place)?;
+        Ok(Corner { vertex: i64::from(vertex), ..Corner::default() })
     }
 
     /// 80 bytes of anything, a count, and for each triangle a normal, three corners and two bytes.
@@ -57,8 +61,12 @@ impl Reader<'_> {
                 let bytes = [record[at], record[at + 1], record[at + 2], record[at + 3]];
                 f32::from_le_bytes(bytes)
             };
-            let corners = [12, 24, 36].map(|at| self.corner([0, 4, 8].map(|i| number(at + i))));
-            self.builder.polygon(&corners, || triangle(index))?;
+            let place = || triangle(index);
+            let mut corners = [Corner::default(); 3];
+            for (corner, at) in corners.iter_mut().zip([12, 24, 36]) {
+                *corner = self.corner([0, 4, 8].map(|i| number(at + i)), place)?;
+            }
+            self.builder.polygon(&corners, place)?;
         }
         if self.scanner.peek()?.is_some() {
             if count == 0 {
@@ -97,7 +105,8 @@ impl Reader<'_> {
                 }
                 (b"vertex", Some(corners)) => {
                     let position = self.numbers(&mut word)?;
-                    corners.push(self.corner(position));
+                    let place = Place::Line(self.scanner.line_number());
+                    corners.push(self.corner(position, || place.clone())?);
                 }
                 (b"endloop", Some(_)) => {
                     let place = Place::Line(self.scanner.line_number());

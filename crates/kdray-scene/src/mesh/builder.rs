@@ -35,6 +35,14 @@ pub(crate) struct MeshBuilder<'a> {
 /// Stands for "no material" until the end.
 const NO_MATERIAL: u32 = u32::MAX;
 
+/// How many vertices a model may have, so that their number has 32 bits, too.
+const MAX_VERTICES: u32 = u32::MAX;
+
+/// The index of the next of so many vertices, if there may be one more.
+fn next_index(vertices: usize) -> Option<u32> {
+    u32::try_from(vertices).ok().filter(|&index| index < MAX_VERTICES)
+}
+
 impl<'a> MeshBuilder<'a> {
     pub(crate) fn new(request: &'a Request<'a>) -> Self {
         Self {
@@ -53,6 +61,20 @@ impl<'a> MeshBuilder<'a> {
     /// Adds what the user should know.
     pub(crate) fn warn(&mut self, warning: impl Into<String>) {
         self.model.warnings.push(format!("{}: {}", self.request.file, warning.into()));
+    }
+
+    /// Adds a vertex and tells its index, or refuses one more than indices can count.
+    pub(crate) fn vertex(
+        &mut self,
+        position: [f32; 3],
+        place: impl Fn() -> Place,
+    ) -> Result<u32, LoadError> {
+        let index = next_index(self.model.vertices.len()).ok_or_else(|| {
+            let reason = format!("more than {MAX_VERTICES} vertices; split the file");
+            self.request.invalid(place(), reason)
+        })?;
+        self.model.vertices.push(position);
+        Ok(index)
     }
 
     /// Adds a polygon of vertices that are there already, split into triangles. One that uses a
@@ -205,4 +227,17 @@ fn unit_or(normal: Option<[f32; 3]>, fallback: [f32; 3]) -> [f32; 3] {
 
 fn finite_or<const N: usize>(value: Option<[f32; N]>, fallback: [f32; N]) -> [f32; N] {
     value.filter(|value| value.iter().all(|x| x.is_finite())).unwrap_or(fallback)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn indices_do_not_wrap() {
+        assert_eq!(next_index(0), Some(0));
+        assert_eq!(next_index(0xffff_fffe), Some(0xffff_fffe));
+        assert_eq!(next_index(0xffff_ffff), None);
+        assert_eq!(next_index(usize::MAX), None);
+    }
 }

@@ -1,6 +1,9 @@
 //! Vertices for formats that give each triangle its own.
 
+use super::MeshBuilder;
+use crate::{LoadError, Place};
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 
 /// Gives equal positions the same index, so that triangles that touch share vertices.
 #[derive(Default)]
@@ -9,14 +12,19 @@ pub(crate) struct Welder {
 }
 
 impl Welder {
-    /// The index of the vertex at `position`, which is added to `vertices` if it is new. 0 and −0
+    /// The index of the vertex at `position`, which is added to the model if it is new. 0 and −0
     /// are equal; a NaN is equal to itself.
-    pub(crate) fn index(&mut self, position: [f32; 3], vertices: &mut Vec<[f32; 3]>) -> u32 {
+    pub(crate) fn index(
+        &mut self,
+        position: [f32; 3],
+        builder: &mut MeshBuilder<'_>,
+        place: impl Fn() -> Place,
+    ) -> Result<u32, LoadError> {
         // Adding 0 turns −0 into 0.
         let bits = position.map(|x| (x + 0.0).to_bits());
-        *self.indices.entry(bits).or_insert_with(|| {
-            vertices.push(position);
-            (vertices.len() - 1) as u32
-        })
+        match self.indices.entry(bits) {
+            Entry::Occupied(known) => Ok(*known.get()),
+            Entry::Vacant(new) => Ok(*new.insert(builder.vertex(position, place)?)),
+        }
     }
 }

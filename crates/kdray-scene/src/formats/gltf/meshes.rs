@@ -10,6 +10,7 @@ use ::gltf::json::validation::Checked;
 use ::gltf::json::{Accessor, Index};
 use glam::{DMat3, DMat4, DVec3};
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::ops::RangeInclusive;
 use std::rc::Rc;
 
@@ -101,11 +102,14 @@ impl<'a> Flattener<'a> {
         let parts = self.mesh(instance.mesh)?;
         let mut bases = HashMap::new();
         for part in parts.iter() {
-            let base = *bases.entry(part.sources).or_insert_with(|| {
-                let base = builder.model.vertices.len();
-                add_vertices(part, instance, builder);
-                base
-            });
+            let base = match bases.entry(part.sources) {
+                Entry::Occupied(base) => *base.get(),
+                Entry::Vacant(new) => {
+                    let base = *new.insert(builder.model.vertices.len());
+                    add_vertices(part, instance, builder)?;
+                    base
+                }
+            };
             add_triangles(part, instance, base, builder)?;
         }
         Ok(())
@@ -264,12 +268,18 @@ impl Placements {
     }
 }
 
-fn add_vertices(part: &Part, instance: &Instance, builder: &mut MeshBuilder<'_>) {
+fn add_vertices(
+    part: &Part,
+    instance: &Instance,
+    builder: &mut MeshBuilder<'_>,
+) -> Result<(), LoadError> {
     let placements = Placements::new(part, instance);
-    builder.model.vertices.extend(part.positions.iter().enumerate().map(|(vertex, p)| {
-        let position = DVec3::new(p[0], p[1], p[2]);
-        <[f32; 3]>::from(placements.of(vertex).position.transform_point3(position).as_vec3())
-    }));
+    for (vertex, p) in part.positions.iter().enumerate() {
+        let placement = placements.of(vertex);
+        let position = placement.position.transform_point3(DVec3::new(p[0], p[1], p[2]));
+        builder.vertex(position.as_vec3().into(), || Place::Json(part.path.clone()))?;
+    }
+    Ok(())
 }
 
 fn add_triangles(

@@ -144,10 +144,7 @@ impl Reader<'_> {
             self.faces.colors.resize(self.builder.model.vertices.len(), [1.0; 3]);
             self.faces.colors.push(color);
         }
-        if u32::try_from(self.builder.model.vertices.len()).is_err() {
-            return Err(self.request.invalid(Place::Line(line), "more than 4294967295 vertices"));
-        }
-        self.builder.model.vertices.push(position);
+        self.builder.vertex(position, || Place::Line(line))?;
         Ok(())
     }
 

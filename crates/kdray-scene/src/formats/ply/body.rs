@@ -1,8 +1,8 @@
 //! The values of a PLY file.
 
 use super::header::{Element, Scalar};
+use crate::LoadError;
 use crate::input::Scanner;
-use crate::{LoadError, Place};
 
 /// How values are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,8 +62,7 @@ impl<'a> Values<'a> {
 
     /// An error in one thing of an element.
     pub(super) fn error(&self, element: &Element, index: u64, reason: &str) -> LoadError {
-        let place = Place::Element { name: element.name.clone(), index };
-        self.scanner.error_at(place, reason)
+        self.scanner.error_at(element.place(index), reason)
     }
 
     /// Passes over all things of an element.

@@ -1,8 +1,8 @@
 //! The header of a PLY file.
 
 use super::Encoding;
-use crate::LoadError;
 use crate::input::Scanner;
+use crate::{LoadError, Place};
 
 /// What a file says that it holds.
 pub(super) struct Header {
@@ -145,6 +145,11 @@ impl Scalar {
 }
 
 impl Element {
+    /// One of its things, for messages.
+    pub(super) fn place(&self, index: u64) -> Place {
+        Place::Element { name: self.name.clone(), index }
+    }
+
     /// Where the single values of these names are among the element's single values.
     pub(super) fn scalars<const N: usize>(&self, names: &[&str; N]) -> Option<[usize; N]> {
         let scalars = || self.properties.iter().filter(|property| property.length.is_none());

@@ -102,7 +102,7 @@ fn read_vertices(
     let mut row = Row::new(element);
     for index in 0..element.count {
         values.read(element, index, &mut row)?;
-        builder.model.vertices.push(row.pick(position));
+        builder.vertex(row.pick(position), || element.place(index))?;
         if let Some(normal) = normal {
             attributes.normals.push(row.pick(normal));
         }
@@ -112,9 +112,6 @@ fn read_vertices(
         if let Some((color, unit)) = color {
             attributes.colors.push(linear(row.pick(color), unit));
         }
-    }
-    if u32::try_from(builder.model.vertices.len()).is_err() {
-        return Err(values.error(element, 0, "more than 4294967295 vertices"));
     }
     Ok(())
 }
@@ -191,7 +188,7 @@ fn add_polygon(
     index: u64,
     waiting: Option<&mut Waiting>,
 ) -> Result<(), LoadError> {
-    let place = || Place::Element { name: element.name.clone(), index };
+    let place = || element.place(index);
     match waiting {
         Some(waiting) => waiting.push((place(), corners.to_vec())),
         None => builder.polygon(corners, place)?,
