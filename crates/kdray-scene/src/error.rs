@@ -5,17 +5,17 @@ use std::io;
 use thiserror::Error;
 
 /// Why a file could not be loaded. Each names the file, and as far as it can the place and what
-/// to do.
+/// to do. What the system said is part of the message, and not also its source.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum LoadError {
     /// The file, or one that it refers to, could not be opened or read.
-    #[error("{file}: cannot be read: {source}")]
+    #[error("{file}: cannot be read: {error}")]
     Io {
         /// The file.
         file: String,
         /// What the system or the decompression says.
-        source: io::Error,
+        error: io::Error,
     },
     /// Neither the name nor the content tells the format.
     #[error(
@@ -55,7 +55,7 @@ pub enum LoadError {
         what: String,
     },
     /// A file that the content is incomplete without is missing.
-    #[error("{file}: {place}: refers to {missing:?}, which cannot be read: {source}")]
+    #[error("{file}: {place}: refers to {missing:?}, which cannot be read: {error}")]
     Missing {
         /// The file.
         file: String,
@@ -64,7 +64,7 @@ pub enum LoadError {
         /// What it refers to.
         missing: String,
         /// Why that cannot be read.
-        source: io::Error,
+        error: io::Error,
     },
 }
 

@@ -35,7 +35,7 @@ impl Default for LoadOptions {
 /// [`LoadError`] names the file, the place and the reason.
 pub fn load(path: &Path, options: &LoadOptions) -> Result<Model, LoadError> {
     let name = path.display().to_string();
-    let fail = |source| LoadError::Io { file: name.clone(), source };
+    let fail = |error| LoadError::Io { file: name.clone(), error };
     if path.is_dir() {
         return Err(fail(std::io::ErrorKind::IsADirectory.into()));
     }
@@ -67,7 +67,7 @@ fn read_from(
     siblings: Siblings<'_>,
     options: &LoadOptions,
 ) -> Result<Model, LoadError> {
-    let fail = |source| LoadError::Io { file: name.to_owned(), source };
+    let fail = |error| LoadError::Io { file: name.to_owned(), error };
     let plain = Limited::new(decompressed(bytes).map_err(fail)?, options.max_bytes);
     let request = Request { file: name, siblings, options };
     let (start, bytes) = peek(Box::new(plain), 1024).map_err(|e| request.read_error(e))?;

@@ -26,11 +26,11 @@ impl Request<'_> {
     }
 
     /// The error that a failed read of the file is.
-    pub(crate) fn read_error(&self, source: io::Error) -> LoadError {
+    pub(crate) fn read_error(&self, error: io::Error) -> LoadError {
         let file = self.file.to_owned();
-        match source.kind() {
+        match error.kind() {
             ErrorKind::FileTooLarge => LoadError::TooLong { file, limit: self.options.max_bytes },
-            _ => LoadError::Io { file, source },
+            _ => LoadError::Io { file, error },
         }
     }
 }

@@ -77,11 +77,11 @@ impl<'a> Loader<'a> {
 
     fn bytes(&mut self, uri: &str, path: &str) -> Result<Rc<Vec<u8>>, LoadError> {
         let request = self.document.request;
-        let missing = |source| LoadError::Missing {
+        let missing = |error| LoadError::Missing {
             file: request.file.to_owned(),
             place: Place::Json(path.to_owned()),
             missing: uri.chars().take(100).collect(),
-            source,
+            error,
         };
         let content = Content::find(self.document, uri).map_err(missing)?;
         if let Content::File(path) = &content

@@ -85,7 +85,7 @@ fn read_libraries(
                 known.insert(path);
                 read
             }
-            Err(source) => Err(LoadError::Io { file: name.to_owned(), source }),
+            Err(error) => Err(LoadError::Io { file: name.to_owned(), error }),
         };
         if let Err(error) = read {
             builder.warn(format!("line {line}: material library left out: {error}"));
