@@ -47,6 +47,45 @@ fn skins_of_more_joints_than_bytes_are_refused() {
     assert!(message.contains("skins[0]: there are many more numbers"), "{message}");
 }
 
+/// A mesh of so many primitives, all over the same `vertices` that no buffer backs, in so many
+/// nodes with a skin.
+fn primitives(
+    primitive: &str,
+    count: usize,
+    vertices: usize,
+    nodes: usize,
+) -> Result<Model, LoadError> {
+    gltf(&format!(
+        r#""nodes":[{}],"skins":[{{"joints":[0]}}],"meshes":[{{"primitives":[{}]}}],
+        "accessors":[{{"componentType":5126,"count":{vertices},"type":"VEC3"}},
+        {{"componentType":5126,"count":{vertices},"type":"VEC4"}},
+        {{"componentType":5125,"count":3,"type":"SCALAR"}}]"#,
+        list(r#"{"mesh":0,"skin":0}"#, nodes),
+        list(primitive, count),
+    ))
+}
+
+#[test]
+fn triangles_without_indices_do_not_multiply() {
+    let result = primitives(r#"{"attributes":{"POSITION":0}}"#, 1000, 100_000, 1);
+    let message = result.unwrap_err().to_string();
+    assert!(message.contains("]: there are many more numbers than bytes"), "{message}");
+}
+
+#[test]
+fn primitives_of_one_triangle_do_not_place_all_vertices() {
+    let primitive = r#"{"attributes":{"POSITION":0,"JOINTS_0":1,"WEIGHTS_0":1},"indices":2}"#;
+    let model = primitives(primitive, 20_000, 300_000, 1).unwrap();
+    assert_eq!((model.triangles.len(), model.vertices.len()), (20_000, 300_000));
+}
+
+#[test]
+fn primitives_without_triangles_do_not_take_all_day() {
+    let result = primitives(r#"{"attributes":{"POSITION":0}}"#, 20_000, 1, 20_000);
+    let message = result.unwrap_err().to_string();
+    assert!(message.contains("triangles, vertices or primitives"), "{message}");
+}
+
 /// Loads a file with at most 100,000 bytes a file, after writing it and those beside it.
 fn load_first(folder: &Path, files: &[(&str, &[u8])]) -> Result<Model, LoadError> {
     for (name, content) in files {

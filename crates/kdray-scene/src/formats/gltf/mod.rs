@@ -12,6 +12,8 @@ mod graph;
 mod lamps;
 mod materials;
 mod meshes;
+mod parts;
+mod placement;
 mod skins;
 mod textures;
 
