@@ -47,8 +47,9 @@ impl TextureDecoder {
         let mut limits = Limits::default();
         limits.max_alloc = Some(8 * pixels + (64 << 20));
         decoder.set_limits(limits).map_err(|error| error.to_string())?;
-        let image = DynamicImage::from_decoder(decoder).map_err(|error| error.to_string())?;
+        // Broken images count, too, for they take as long: one file may be shown many times.
         self.pixels += pixels;
+        let image = DynamicImage::from_decoder(decoder).map_err(|error| error.to_string())?;
         let pixels = linear_pixels(&image, encoding);
         Ok(Texture { width: width as usize, height: height as usize, pixels, wrap })
     }

@@ -191,3 +191,30 @@ fn an_image_of_many_textures_is_decoded_once() {
         |i| model.warnings.iter().any(|w| w.contains(&format!("textures[{i}] left out")));
     assert!(left_out(5) && left_out(6), "{:?}", model.warnings);
 }
+
+#[test]
+fn a_broken_image_is_not_decoded_time_and_again() {
+    let mut file = std::io::Cursor::new(Vec::new());
+    image::GrayImage::new(1024, 1024).write_to(&mut file, image::ImageFormat::Png).unwrap();
+    let mut broken = file.into_inner();
+    broken.truncate(broken.len() / 2);
+    let views = 2000;
+    let each = |text: &str| {
+        (0..views).map(|i| text.replace('#', &i.to_string())).collect::<Vec<_>>().join(",")
+    };
+    let data: String = broken.iter().map(|byte| format!("%{byte:02x}")).collect();
+    let view = format!("{{\"buffer\":0,\"byteLength\":{}}}", broken.len());
+    let model = gltf(&format!(
+        r#""images":[{}],"textures":[{}],"materials":[{}],"bufferViews":[{}],
+        "buffers":[{{"byteLength":{},"uri":"data:;,{data}"}}]"#,
+        each(r##"{"bufferView":#,"mimeType":"image/png"}"##),
+        each(r##"{"source":#}"##),
+        each(r##"{"pbrMetallicRoughness":{"baseColorTexture":{"index":#}}}"##),
+        list(&view, views),
+        broken.len(),
+    ));
+    let warnings = model.unwrap().warnings;
+    let tried = warnings.iter().filter(|warning| !warning.contains("all textures would have"));
+    // One is about the triangles that are not there.
+    assert_eq!(tried.count(), 128 + 1);
+}
