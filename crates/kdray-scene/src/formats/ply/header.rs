@@ -45,63 +45,68 @@ const MAX_DECLARATIONS: usize = 4096;
 
 impl Header {
     pub(super) fn read(scanner: &mut Scanner<'_>) -> Result<Self, LoadError> {
-        let mut encoding = None;
-        let mut elements: Vec<Element> = Vec::new();
-        let mut texture = None;
-        let mut declarations = 0;
-        let mut first = true;
+        let mut draft = Draft::default();
         let mut bytes = Vec::new();
-        loop {
+        for number in 0..=MAX_DECLARATIONS {
             if !scanner.line(&mut bytes)? {
                 return Err(scanner.error_in_line("the file ends within its header"));
             }
-            let fail = |reason: &str| Err(scanner.error_in_previous_line(reason));
+            let fail = |reason: &str| scanner.error_in_previous_line(reason);
             let line = String::from_utf8_lossy(&bytes);
             let words: Vec<&str> = line.split_ascii_whitespace().collect();
-            if std::mem::take(&mut first) {
-                if words != ["ply"] {
-                    return fail("not a PLY file: it does not begin with the line `ply`");
-                }
-                continue;
-            }
-            declarations += 1;
-            if declarations > MAX_DECLARATIONS {
-                return fail("a header of too many lines");
-            }
             match words.as_slice() {
-                ["comment", "TextureFile", ..] => {
-                    let name = line.split_once("TextureFile").map_or("", |(_, name)| name.trim());
-                    texture.get_or_insert(name.to_owned());
+                ["ply"] if number == 0 => {}
+                _ if number == 0 => {
+                    return Err(fail("not a PLY file: it does not begin with the line `ply`"));
                 }
-                [] | ["comment" | "obj_info", ..] => {}
-                ["format", name, _version] => match Encoding::from_name(name) {
-                    Some(named) => encoding = Some(named),
-                    None => return fail("an unknown format; known are ascii and binary ones"),
-                },
-                ["element", name, count] => {
-                    let Ok(count) = count.parse() else {
-                        return fail("the count of an element is no number");
-                    };
-                    let properties = Vec::new();
-                    elements.push(Element { name: (*name).to_owned(), count, properties });
-                }
-                ["property", rest @ ..] => {
-                    let Some(property) = Property::from_words(rest) else {
-                        return fail("a property of an unknown type");
-                    };
-                    let Some(element) = elements.last_mut() else {
-                        return fail("a property before any element");
-                    };
-                    element.properties.push(property);
-                }
-                ["end_header"] => break,
-                _ => return fail("not a header line"),
+                ["end_header"] => return draft.finish().map_err(fail),
+                words => draft.add(words, &line).map_err(fail)?,
             }
         }
-        match encoding {
-            Some(encoding) => Ok(Self { encoding, elements, texture }),
-            None => Err(scanner.error_in_previous_line("the header has no format line")),
+        Err(scanner.error_in_previous_line("a header of too many lines"))
+    }
+}
+
+/// What the lines so far say.
+#[derive(Default)]
+struct Draft {
+    encoding: Option<Encoding>,
+    elements: Vec<Element>,
+    texture: Option<String>,
+}
+
+impl Draft {
+    /// Adds a line, or says what is wrong with it.
+    fn add(&mut self, words: &[&str], line: &str) -> Result<(), &'static str> {
+        match words {
+            ["comment", "TextureFile", ..] => {
+                let name = line.split_once("TextureFile").map_or("", |(_, name)| name.trim());
+                self.texture.get_or_insert(name.to_owned());
+            }
+            [] | ["comment" | "obj_info", ..] => {}
+            ["format", name, _version] => {
+                let named = Encoding::from_name(name);
+                self.encoding =
+                    Some(named.ok_or("an unknown format; known are ascii and binary ones")?);
+            }
+            ["element", name, count] => {
+                let count = count.parse().map_err(|_| "the count of an element is no number")?;
+                let properties = Vec::new();
+                self.elements.push(Element { name: (*name).to_owned(), count, properties });
+            }
+            ["property", rest @ ..] => {
+                let property = Property::from_words(rest).ok_or("a property of an unknown type")?;
+                let element = self.elements.last_mut().ok_or("a property before any element")?;
+                element.properties.push(property);
+            }
+            _ => return Err("not a header line"),
         }
+        Ok(())
+    }
+
+    fn finish(self) -> Result<Header, &'static str> {
+        let encoding = self.encoding.ok_or("the header has no format line")?;
+        Ok(Header { encoding, elements: self.elements, texture: self.texture })
     }
 }
 
