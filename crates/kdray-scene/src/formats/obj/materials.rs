@@ -79,12 +79,10 @@ fn read_libraries(
     let several: Vec<&str> = if is_one { vec![names] } else { names.split_whitespace().collect() };
     for name in several {
         let read = match request.siblings.find(name) {
-            Ok(path) if known.contains(&path) => Ok(()),
-            Ok(path) => {
-                let read = read_library(name, &path, request, &mut materials);
-                known.insert(path);
-                read
+            Ok(path) if known.insert(path.clone()) => {
+                read_library(name, &path, request, &mut materials)
             }
+            Ok(_) => Ok(()),
             Err(error) => Err(LoadError::Io { file: name.to_owned(), error }),
         };
         if let Err(error) = read {
