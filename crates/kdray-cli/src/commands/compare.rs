@@ -1,6 +1,7 @@
 //! `kdray compare`: the four strategies and the naive answer, side by side.
 
 mod contender;
+mod counted;
 mod measure;
 mod plot;
 mod rays;

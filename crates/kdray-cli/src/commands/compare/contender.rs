@@ -3,7 +3,7 @@
 use super::Args;
 use super::measure::Figures;
 use crate::{args::Split, cli::Globals, error::CliError, interrupt, progress};
-use kdray::{Scene, TreeStats, TriangleMesh};
+use kdray::{Aabb, Scene, TreeStats, TriangleMesh};
 use std::time::{Duration, Instant};
 
 /// Builds that took less than this are repeated, so that their time can be trusted.
@@ -33,8 +33,13 @@ pub(super) enum Kind<'a> {
         /// The median time of a build, in seconds.
         build_seconds: f64,
     },
-    /// By testing every triangle.
-    Naive(&'a TriangleMesh),
+    /// By testing every triangle with each ray that meets the box around them all (S1).
+    Naive {
+        /// The triangles.
+        mesh: &'a TriangleMesh,
+        /// The box.
+        bounds: Aabb<3>,
+    },
 }
 
 /// All that take part.
@@ -85,13 +90,14 @@ impl<'a> Contenders<'a> {
     pub(super) fn best(&self) -> Option<&Scene> {
         self.list.iter().rev().find_map(|contender| match &contender.kind {
             Kind::Tree { scene, .. } => Some(&**scene),
-            Kind::Naive(_) => None,
+            Kind::Naive { .. } => None,
         })
     }
 
     /// Adds the one without a tree.
     pub(super) fn add_naive(&mut self, mesh: &'a TriangleMesh) {
-        let naive = Contender { name: "naive", kind: Kind::Naive(mesh), figures: Vec::new() };
-        self.list.insert(0, naive);
+        let bounds = self.best().map_or(Aabb::EMPTY, |scene| *scene.tree().bounds());
+        let kind = Kind::Naive { mesh, bounds };
+        self.list.insert(0, Contender { name: "naive", kind, figures: Vec::new() });
     }
 }

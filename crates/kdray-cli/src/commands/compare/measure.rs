@@ -2,10 +2,11 @@
 
 use super::Contender;
 use super::contender::Kind;
+use super::counted::Counted;
 use super::rays::{RaySet, RaySets};
 use crate::{cli::Globals, error::CliError, interrupt, progress::Progress};
 use kdray::{
-    Aabb, Hit, Ray, TriangleMesh,
+    Aabb, Hit, Ray, Scene, TriangleMesh,
     primitives::Primitives,
     traverse::{Counters, Naive},
 };
@@ -62,7 +63,7 @@ pub(super) fn measure(
     // Answers and counts first, which also warms the caches.
     for contender in &mut *contenders {
         for set in &rays.sets {
-            let figures = pool.install(|| answer(contender, set, rounds as usize));
+            let figures = pool.install(|| answer(contender, set, rounds));
             contender.figures.push(figures);
             step()?;
         }
@@ -116,57 +117,56 @@ pub(super) fn median(values: &mut [f64]) -> f64 {
     values.get(values.len().saturating_sub(1) / 2).copied().unwrap_or(0.0)
 }
 
-fn answer(contender: &Contender<'_>, set: &RaySet, rounds: usize) -> Figures {
+fn answer(contender: &Contender<'_>, set: &RaySet, rounds: u32) -> Figures {
     match &contender.kind {
-        Kind::Tree { scene, .. } => {
-            let found: Vec<(Answer, Counters)> = set
-                .rays
-                .par_iter()
-                .map(|ray| {
-                    let mut counters = Counters::default();
-                    let answer = match set.any {
-                        true => Answer::Any(scene.any_hit_traced(ray, &mut counters)),
-                        false => Answer::Closest(scene.closest_hit_traced(ray, &mut counters)),
-                    };
-                    (answer, counters)
-                })
-                .collect();
-            let counters = found.iter().fold(Counters::default(), |sum, (_, c)| Counters {
-                splits: sum.splits + c.splits,
-                leaves: sum.leaves + c.leaves,
-                primitives: sum.primitives + c.primitives,
-            });
-            let answers: Vec<Answer> = found.into_iter().map(|(answer, _)| answer).collect();
-            Figures {
-                set: set.name,
-                rays: set.rays.len(),
-                stride: 1,
-                counters,
-                seconds: 0.0,
-                answers,
-            }
-        }
-        Kind::Naive(mesh) => {
-            let naive = naive(mesh);
-            let tests = set.rays.len() * mesh.count() * (rounds + 1);
-            let stride = tests.div_ceil(NAIVE_TESTS).max(1);
-            let asked: Vec<&Ray> = set.rays.iter().step_by(stride).collect();
-            let answers = asked.par_iter().map(|ray| match set.any {
-                true => Answer::Any(naive.any_hit(ray)),
-                false => Answer::Closest(naive.closest_hit(ray)),
-            });
-            let answers: Vec<Answer> = answers.collect();
-            let primitives = (answers.len() * mesh.count()) as u64;
-            let counters = Counters { primitives, ..Counters::default() };
-            Figures { set: set.name, rays: answers.len(), stride, counters, seconds: 0.0, answers }
-        }
+        Kind::Tree { scene, .. } => by_tree(scene, set),
+        Kind::Naive { mesh, bounds } => by_testing_all(mesh, bounds, set, rounds),
     }
 }
 
-/// Every triangle is tested with every ray that meets the box around them all (S1).
-fn naive(mesh: &TriangleMesh) -> Naive<'_, TriangleMesh, Aabb<3>> {
-    let all = (0..mesh.count() as u32).map(|id| mesh.bounds(id));
-    Naive::new(mesh, all.fold(Aabb::EMPTY, |sum, aabb| sum.union(&aabb)))
+fn by_tree(scene: &Scene, set: &RaySet) -> Figures {
+    let ask = |ray| {
+        let mut counters = Counters::default();
+        let answer = match set.any {
+            true => Answer::Any(scene.any_hit_traced(ray, &mut counters)),
+            false => Answer::Closest(scene.closest_hit_traced(ray, &mut counters)),
+        };
+        (answer, counters)
+    };
+    let found: Vec<(Answer, Counters)> = set.rays.par_iter().map(ask).collect();
+    let counters = found.iter().fold(Counters::default(), |sum, (_, c)| Counters {
+        splits: sum.splits + c.splits,
+        leaves: sum.leaves + c.leaves,
+        primitives: sum.primitives + c.primitives,
+    });
+    let answers: Vec<Answer> = found.into_iter().map(|(answer, _)| answer).collect();
+    Figures { set: set.name, rays: answers.len(), stride: 1, counters, seconds: 0.0, answers }
+}
+
+fn by_testing_all(
+    mesh: &TriangleMesh,
+    bounds: &Aabb<3>,
+    set: &RaySet,
+    rounds: u32,
+) -> Figures {
+    let stride = naive_stride(set.rays.len(), mesh.count(), rounds);
+    let counted = Counted::new(mesh);
+    let naive = Naive::new(&counted, *bounds);
+    let asked: Vec<&Ray> = set.rays.iter().step_by(stride).collect();
+    let answers = asked.par_iter().map(|ray| match set.any {
+        true => Answer::Any(naive.any_hit(ray)),
+        false => Answer::Closest(naive.closest_hit(ray)),
+    });
+    let answers: Vec<Answer> = answers.collect();
+    let counters = Counters { primitives: counted.tests(), ..Counters::default() };
+    Figures { set: set.name, rays: answers.len(), stride, counters, seconds: 0.0, answers }
+}
+
+/// Every so manieth ray is asked, so that all rounds together stay below [`NAIVE_TESTS`].
+fn naive_stride(rays: usize, triangles: usize, rounds: u32) -> usize {
+    let rounds = (rounds as usize).saturating_add(1);
+    let tests = rays.saturating_mul(triangles).saturating_mul(rounds);
+    tests.div_ceil(NAIVE_TESTS).max(1)
 }
 
 /// How long the set takes, in seconds.
@@ -175,8 +175,8 @@ fn time(contender: &Contender<'_>, set: &RaySet, stride: usize, threads: usize) 
     match &contender.kind {
         Kind::Tree { scene, .. } if set.any => each(&asked, threads, |ray| scene.any_hit(ray)),
         Kind::Tree { scene, .. } => each(&asked, threads, |ray| scene.closest_hit(ray)),
-        Kind::Naive(mesh) => {
-            let naive = naive(mesh);
+        Kind::Naive { mesh, bounds } => {
+            let naive = Naive::new(*mesh, *bounds);
             match set.any {
                 true => each(&asked, threads, |ray| naive.any_hit(ray)),
                 false => each(&asked, threads, |ray| naive.closest_hit(ray)),
@@ -210,8 +210,16 @@ mod tests {
         assert_eq!(median(&mut []), 0.0);
     }
 
+    #[test]
+    fn many_rays_and_rounds_do_not_wrap() {
+        assert_eq!(naive_stride(10, 10, 5), 1);
+        assert_eq!(naive_stride(1_000_000, 6, 9), 1);
+        assert_eq!(naive_stride(1_000_000, 600, 9), 100);
+        assert_eq!(naive_stride(usize::MAX, 2, u32::MAX), usize::MAX.div_ceil(NAIVE_TESTS));
+    }
+
     fn contender(name: &'static str, stride: usize, answers: Vec<Answer>) -> Contender<'static> {
-        let kind = Kind::Naive(Box::leak(Box::default()));
+        let kind = Kind::Naive { mesh: Box::leak(Box::default()), bounds: Aabb::EMPTY };
         let rays = answers.len();
         let figures = Figures { set: "primary", rays, stride, answers, ..Figures::default() };
         Contender { name, kind, figures: vec![figures] }

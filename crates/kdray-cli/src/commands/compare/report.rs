@@ -157,7 +157,7 @@ impl Entry {
     fn new(contender: &Contender<'_>, triangles: usize) -> Option<Self> {
         let [primary, shadow, bounce] = contender.figures.as_slice() else { return None };
         let tree = match &contender.kind {
-            Kind::Naive(_) => None,
+            Kind::Naive { .. } => None,
             Kind::Tree { stats, build_seconds, .. } => Some(TreeEntry {
                 build_seconds: *build_seconds,
                 nodes: stats.nodes,
