@@ -23,6 +23,10 @@ use rays::RaySets;
 use report::Report;
 use std::path::PathBuf;
 
+/// The most camera rays: with all answers to them, and as many of each other kind, they take some
+/// 4 GB.
+const MAX_RAYS: i64 = 1 << 22;
+
 /// Compare the four ways to choose the splitting plane, and the answer without a tree
 ///
 /// All answer the same three sets of rays: `primary` rays through the pixels, `shadow` rays from
@@ -41,11 +45,11 @@ Example: a million camera rays
 pub(crate) struct Args {
     #[command(flatten)]
     scene: SceneArgs,
-    /// About so many camera rays, spread evenly over the picture
-    #[arg(long, value_name = "N", default_value_t = 20000, value_parser = clap::value_parser!(u32).range(1..))]
+    /// About so many camera rays, spread evenly over the picture; at most 4194304
+    #[arg(long, value_name = "N", default_value_t = 20000, value_parser = clap::value_parser!(u32).range(1..=MAX_RAYS))]
     rays: u32,
-    /// How often everything is measured
-    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..))]
+    /// How often everything is measured, at most 1000 times
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..=1000))]
     rounds: u32,
     /// Leave out the naive answer, which tests every triangle
     #[arg(long)]
