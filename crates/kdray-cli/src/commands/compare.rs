@@ -71,12 +71,16 @@ pub(crate) fn run(args: &Args, globals: &Globals) -> Result<(), CliError> {
     let mut model = load::model(&args.scene, globals)?;
     let mesh = take_mesh(&mut model)?;
     let threads = usize::from(globals.threads.unwrap_or(1));
-    let mut contenders = contender::build_all(&mesh, args, globals)?;
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .map_err(|error| CliError::Usage(format!("--threads {threads}: {error}")))?;
+    let mut contenders = pool.install(|| contender::build_all(&mesh, args, globals))?;
     let rays = RaySets::new(args, &model, contenders.best())?;
     if !args.no_naive {
         contenders.add_naive(&mesh);
     }
-    measure::measure(&mut contenders.list, &rays, args.rounds, threads, globals)?;
+    measure::measure(&mut contenders.list, &rays, args.rounds, &pool, globals)?;
     measure::check_answers(&contenders.list)?;
 
     let report = Report::new(&contenders.list, &rays, &mesh, args, threads);

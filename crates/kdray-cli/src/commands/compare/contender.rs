@@ -47,7 +47,7 @@ pub(super) struct Contenders<'a> {
     pub(super) list: Vec<Contender<'a>>,
 }
 
-/// Builds a tree with each strategy.
+/// Builds a tree with each strategy, on the threads of the current pool.
 pub(super) fn build_all<'a>(
     mesh: &TriangleMesh,
     args: &Args,

@@ -10,7 +10,7 @@ use kdray::{
     primitives::Primitives,
     traverse::{Counters, Naive},
 };
-use rayon::prelude::*;
+use rayon::{ThreadPool, prelude::*};
 use std::{hint::black_box, time::Instant};
 
 /// How many triangle tests the naive answer may cost a set of rays in all.
@@ -39,24 +39,19 @@ enum Answer {
     Any(bool),
 }
 
-/// Fills in the figures of all contenders.
+/// Fills in the figures of all contenders, who work on the threads of `pool`.
 pub(super) fn measure(
     contenders: &mut [Contender<'_>],
     rays: &RaySets,
     rounds: u32,
-    threads: usize,
+    pool: &ThreadPool,
     globals: &Globals,
 ) -> Result<(), CliError> {
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()
-        .map_err(|error| CliError::Usage(format!("--threads {threads}: {error}")))?;
-    let steps = (rounds as usize + 1) * rays.sets.len() * contenders.len();
-    let progress = Progress::start("measuring", steps as u64, "sets of rays", globals);
-    let mut done = 0;
-    let mut step = || {
-        done += 1;
-        progress.set(done);
+    let (sets, count) = (rays.sets.len(), contenders.len());
+    let steps = (u64::from(rounds) + 1) * (sets * count) as u64;
+    let progress = Progress::start("measuring", steps, "sets of rays", globals);
+    let step = || {
+        progress.advance(1);
         if interrupt::requested() { Err(CliError::Interrupted) } else { Ok(()) }
     };
     let _watch = interrupt::watch();
@@ -68,12 +63,27 @@ pub(super) fn measure(
             step()?;
         }
     }
+    take_times(contenders, rays, rounds, pool, step)?;
+    let took = progress.elapsed();
+    progress.finish(&format!("measured {count} contenders with {sets} sets of rays in {took:.2?}"));
+    Ok(())
+}
+
+/// Fills in the times. The contenders take turns, so that a change of the machine's speed meets
+/// all of them.
+fn take_times(
+    contenders: &mut [Contender<'_>],
+    rays: &RaySets,
+    rounds: u32,
+    pool: &ThreadPool,
+    step: impl Fn() -> Result<(), CliError>,
+) -> Result<(), CliError> {
     let mut seconds = vec![Vec::new(); contenders.len() * rays.sets.len()];
     for _ in 0..rounds {
         for (i, contender) in contenders.iter().enumerate() {
             for (j, set) in rays.sets.iter().enumerate() {
                 let stride = contender.figures[j].stride;
-                let took = pool.install(|| time(contender, set, stride, threads));
+                let took = pool.install(|| time(contender, set, stride));
                 seconds[i * rays.sets.len() + j].push(took);
                 step()?;
             }
@@ -83,9 +93,6 @@ pub(super) fn measure(
     for (figures, mut seconds) in figures.zip(seconds) {
         figures.seconds = median(&mut seconds);
     }
-    let (sets, count) = (rays.sets.len(), contenders.len());
-    let took = progress.elapsed();
-    progress.finish(&format!("measured {count} contenders with {sets} sets of rays in {took:.2?}"));
     Ok(())
 }
 
@@ -170,24 +177,24 @@ fn naive_stride(rays: usize, triangles: usize, rounds: u32) -> usize {
 }
 
 /// How long the set takes, in seconds.
-fn time(contender: &Contender<'_>, set: &RaySet, stride: usize, threads: usize) -> f64 {
+fn time(contender: &Contender<'_>, set: &RaySet, stride: usize) -> f64 {
     let asked: Vec<Ray> = set.rays.iter().step_by(stride.max(1)).copied().collect();
     match &contender.kind {
-        Kind::Tree { scene, .. } if set.any => each(&asked, threads, |ray| scene.any_hit(ray)),
-        Kind::Tree { scene, .. } => each(&asked, threads, |ray| scene.closest_hit(ray)),
+        Kind::Tree { scene, .. } if set.any => each(&asked, |ray| scene.any_hit(ray)),
+        Kind::Tree { scene, .. } => each(&asked, |ray| scene.closest_hit(ray)),
         Kind::Naive { mesh, bounds } => {
             let naive = Naive::new(*mesh, *bounds);
             match set.any {
-                true => each(&asked, threads, |ray| naive.any_hit(ray)),
-                false => each(&asked, threads, |ray| naive.closest_hit(ray)),
+                true => each(&asked, |ray| naive.any_hit(ray)),
+                false => each(&asked, |ray| naive.closest_hit(ray)),
             }
         }
     }
 }
 
-fn each<A>(rays: &[Ray], threads: usize, ask: impl Fn(&Ray) -> A + Sync) -> f64 {
+fn each<A>(rays: &[Ray], ask: impl Fn(&Ray) -> A + Sync) -> f64 {
     let start = Instant::now();
-    if threads == 1 {
+    if rayon::current_num_threads() == 1 {
         for ray in rays {
             black_box(ask(ray));
         }
