@@ -5,14 +5,14 @@ use kdray::{BuildError, MeshError, tree::TreeError};
 use kdray_render::{RenderError, WorldError, WriteError};
 use kdray_scene::LoadError;
 use std::{
+    error::Error,
     io::{self, Write},
     path::{Path, PathBuf},
     process::ExitCode,
 };
-use thiserror::Error;
 
 /// Why a command failed.
-#[derive(Debug, Error)]
+#[derive(Debug, thiserror::Error)]
 pub(crate) enum CliError {
     /// A tree that is not what it must be.
     #[error("the tree is broken: {0}")]
@@ -40,9 +40,6 @@ pub(crate) enum CliError {
     /// A camera, light or option that nothing can be rendered with.
     #[error(transparent)]
     Render(#[from] RenderError),
-    /// A picture that could not be written.
-    #[error(transparent)]
-    Picture(#[from] WriteError),
     /// Triangles that no tree can be built over.
     #[error(transparent)]
     Mesh(#[from] MeshError),
@@ -76,6 +73,18 @@ impl CliError {
         Self::Output { path: path.to_owned(), source }
     }
 
+    /// A picture that could not be written to `path`.
+    pub(crate) fn picture(path: &Path, error: WriteError) -> Self {
+        let source = match error {
+            WriteError::Io(source) => source,
+            error => {
+                let cause = error.source().map_or(String::new(), |cause| format!(": {cause}"));
+                io::Error::other(format!("{error}{cause}"))
+            }
+        };
+        Self::output(path, source)
+    }
+
     /// The exit code, as `kdray --help` lists them.
     fn exit_code(&self) -> u8 {
         match self {
@@ -85,7 +94,7 @@ impl CliError {
             Self::Interrupted | Self::Build(BuildError::Cancelled) => interrupt::EXIT_CODE,
             Self::Input { .. } | Self::Load(_) => 3,
             Self::World(_) | Self::Mesh(_) | Self::Build(_) => 3,
-            Self::Output { .. } | Self::Stdout(_) | Self::Picture(_) => 4,
+            Self::Output { .. } | Self::Stdout(_) => 4,
         }
     }
 
@@ -124,6 +133,8 @@ mod tests {
         assert_eq!(code(MeshError::TooManyTriangles(0).into()), 3);
         assert_eq!(code(CliError::Stdout(system(io::ErrorKind::StorageFull))), 4);
         assert_eq!(code(CliError::Stdout(system(io::ErrorKind::BrokenPipe))), 0);
+        let too_large = WriteError::TooLarge { width: 0, height: 1 << 32 };
+        assert_eq!(code(CliError::picture(Path::new("large.png"), too_large)), 4);
         assert_eq!(code(WorldError::Build(BuildError::Cancelled).into()), 130);
     }
 }

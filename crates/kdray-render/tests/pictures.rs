@@ -4,11 +4,13 @@
 
 mod support;
 
+use exr::prelude::{ReadChannels, ReadLayers};
 use kdray_render::{
     CameraError, LightError, Picture, PictureKind, PngDepth, RenderError, RenderOptions,
-    WorldError, render,
+    WorldError, WriteError, render,
 };
 use kdray_scene::{Light, Model};
+use std::io::{self, Cursor, Write};
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -52,16 +54,22 @@ fn a_layer_is_the_same_alone_and_among_all() {
 const SHARE: f64 = 0.01;
 const LEVELS: u8 = 4;
 
+/// The bytes of a PNG.
+fn png(picture: &Picture, depth: PngDepth) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    picture.write_png(&mut bytes, depth).unwrap();
+    bytes
+}
+
 /// Compares with `tests/golden/NAME.png`; with `KDRAY_BLESS` set, writes it instead.
 fn assert_golden(picture: &Picture, name: &str) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/golden/{name}.png"));
+    let written = png(picture, PngDepth::Eight);
     if std::env::var_os("KDRAY_BLESS").is_some() {
-        picture.write_png(&path, PngDepth::Eight).unwrap();
+        std::fs::write(&path, &written).unwrap();
     }
-    let folder = tempfile::tempdir().unwrap();
-    let written = folder.path().join("now.png");
-    picture.write_png(&written, PngDepth::Eight).unwrap();
-    let [golden, now] = [&path, &written].map(|path| image::open(path).unwrap().to_rgba8());
+    let golden = image::open(&path).unwrap().to_rgba8();
+    let now = image::load_from_memory(&written).unwrap().to_rgba8();
     assert_eq!(golden.dimensions(), now.dimensions(), "{name}");
     let differs = |(a, b): (&image::Rgba<u8>, &image::Rgba<u8>)| {
         a.0.iter().zip(b.0).any(|(a, b)| a.abs_diff(b) > LEVELS)
@@ -150,10 +158,10 @@ fn files_hold_what_was_computed() {
     let (world, camera, lights) = still_life();
     let options = RenderOptions { all_layers: true, ..small(PictureKind::Shaded) };
     let picture = shoot(&world, &camera, &lights, &options);
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("all.exr");
-    picture.write_exr(&path).unwrap();
-    let read = exr::prelude::read_all_flat_layers_from_file(&path).unwrap();
+    let mut file = Vec::new();
+    picture.write_exr(&mut file).unwrap();
+    let read = exr::prelude::read().no_deep_data().largest_resolution_level().all_channels();
+    let read = read.all_layers().all_attributes().from_buffered(Cursor::new(file)).unwrap();
     let channels = &read.layer_data[0].channel_data.list;
     let names: Vec<String> = channels.iter().map(|c| c.name.to_string()).collect();
     let expected = [
@@ -177,13 +185,48 @@ fn files_hold_what_was_computed() {
     let exr::prelude::FlatSamples::U32(ids) = values("primitive.id") else { panic!("not whole") };
     assert_eq!(ids, picture.ids("primitive", "id").unwrap());
 
-    let path = folder.path().join("deep.png");
-    picture.write_png(&path, PngDepth::Sixteen).unwrap();
-    let image = image::open(&path).unwrap();
+    let image = image::load_from_memory(&png(&picture, PngDepth::Sixteen)).unwrap();
     assert_eq!((image.width(), image.height()), (64, 48));
     assert_eq!(image.color(), image::ColorType::Rgba16);
-    assert!(picture.write_png(folder.path().join("no/such.png"), PngDepth::Eight).is_err());
-    assert!(picture.write_exr(folder.path()).is_err());
+}
+
+/// A place with room for so many bytes.
+struct Full(usize);
+
+impl Write for Full {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.0 = self.0.checked_sub(bytes.len()).ok_or(io::ErrorKind::StorageFull)?;
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+#[test]
+fn a_full_disk_is_an_error_that_keeps_its_cause() {
+    let (world, camera, lights) = still_life();
+    let picture = shoot(&world, &camera, &lights, &small(PictureKind::Depth));
+    for room in [0, 50] {
+        for error in [
+            picture.write_png(Full(room), PngDepth::Eight).unwrap_err(),
+            picture.write_exr(Full(room)).unwrap_err(),
+        ] {
+            let WriteError::Io(cause) = &error else { panic!("{error:?}") };
+            assert_eq!(cause.kind(), io::ErrorKind::StorageFull);
+            assert!(!error.to_string().contains(&cause.to_string()), "told once: {error}");
+        }
+    }
+}
+
+#[test]
+fn a_picture_that_no_png_can_hold_is_refused() {
+    let (world, camera, lights) = still_life();
+    let picture = shoot(&world, &camera, &lights, &plain(1, 1, 1));
+    let picture = Picture { width: 1 << 32, height: 0, ..picture };
+    let refused = picture.write_png(Vec::new(), PngDepth::Eight);
+    assert!(matches!(refused, Err(WriteError::TooLarge { height: 0, .. })), "{refused:?}");
 }
 
 #[test]

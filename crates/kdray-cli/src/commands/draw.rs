@@ -168,10 +168,11 @@ fn render(
     if !picture.complete {
         return Err(CliError::Interrupted);
     }
-    let folder = tempfile::tempdir().map_err(|error| CliError::output(&args.out, error))?;
-    let path = folder.path().join("render.png");
-    picture.write_png(&path, PngDepth::Eight)?;
-    std::fs::read(&path).map_err(|error| CliError::output(&path, error))
+    let mut png = Vec::new();
+    picture
+        .write_png(&mut png, PngDepth::Eight)
+        .map_err(|error| CliError::picture(&args.out, error))?;
+    Ok(png)
 }
 
 fn nothing_to_draw(args: &Args) -> CliError {

@@ -55,9 +55,9 @@ struct QualityArgs {
     /// Compute the layers of every picture; only for .exr
     #[arg(long)]
     layers: bool,
-    /// Bits a channel of a PNG
-    #[arg(long, value_name = "8|16", default_value = "8", value_parser = bits)]
-    bits: PngDepth,
+    /// Bits a channel, 8 without it; only for .png
+    #[arg(long, value_name = "8|16", value_parser = bits)]
+    bits: Option<PngDepth>,
     /// Rays a pixel through the camera
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     samples: Option<u32>,
@@ -122,21 +122,34 @@ enum Format {
 /// Reads, builds, renders and writes.
 pub(crate) fn run(args: &Args, globals: &Globals) -> Result<(), CliError> {
     let format = Format::of(&args.out)?;
-    if args.quality.layers && format != Format::Exr {
-        let reason = "--layers needs an output that ends in .exr: a PNG holds one picture";
-        return Err(CliError::Usage(reason.to_owned()));
-    }
+    check_fits(&args.quality, format)?;
     // Refused now, not after an hour of rendering.
-    drop(Output::create(&args.out)?);
+    let mut output = Output::create(&args.out)?;
     let model = load::model(&args.scene, globals)?;
     let world = build::world(model, &args.build, globals)?;
     let (picture, report) = render(args, &world, globals)?;
-    match format {
-        Format::Png => picture.write_png(&args.out, args.quality.bits)?,
-        Format::Exr => picture.write_exr(&args.out)?,
-    }
+    let written = match format {
+        Format::Png => picture.write_png(output.file(), args.quality.bits.unwrap_or_default()),
+        Format::Exr => picture.write_exr(output.file()),
+    };
+    written.map_err(|error| CliError::picture(&args.out, error))?;
+    output.commit()?;
     progress::say(globals, &format!("{report}: {}", args.out.display()));
     if picture.complete { Ok(()) } else { Err(CliError::Interrupted) }
+}
+
+/// Refuses options that the format has no use for.
+fn check_fits(quality: &QualityArgs, format: Format) -> Result<(), CliError> {
+    let refused = match format {
+        Format::Png if quality.layers => {
+            "--layers needs an output that ends in .exr: a PNG holds one picture"
+        }
+        Format::Exr if quality.bits.is_some() => {
+            "--bits needs an output that ends in .png: OpenEXR keeps 32 bits"
+        }
+        _ => return Ok(()),
+    };
+    Err(CliError::Usage(refused.to_owned()))
 }
 
 /// The picture, whole or as far as Ctrl-C let it come, and a line on what was done.

@@ -1,12 +1,11 @@
 //! OpenEXR: every layer as it was computed.
 
-use super::write::{WriteError, replace_file};
-use super::{Picture, Samples};
+use super::{Picture, Samples, WriteError};
 use exr::prelude::{
     AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, LayerAttributes, SmallVec,
     WritableImage,
 };
-use std::path::Path;
+use std::io::{Cursor, Write};
 
 impl Picture {
     /// Writes all layers as one OpenEXR picture, without loss. The colour's channels are `R`, `G`,
@@ -15,7 +14,7 @@ impl Picture {
     ///
     /// # Errors
     /// See [`WriteError`].
-    pub fn write_exr(&self, path: impl AsRef<Path>) -> Result<(), WriteError> {
+    pub fn write_exr(&self, mut writer: impl Write) -> Result<(), WriteError> {
         let mut channels = SmallVec::new();
         for layer in &self.layers {
             for channel in &layer.channels {
@@ -36,8 +35,8 @@ impl Picture {
             Encoding::SMALL_LOSSLESS,
             AnyChannels::sort(channels),
         ));
-        replace_file(path.as_ref(), |writer| {
-            image.write().to_buffered(writer).map_err(|error| error.to_string())
-        })
+        let mut file = Cursor::new(Vec::new());
+        image.write().to_buffered(&mut file).map_err(|error| WriteError::Encode(error.into()))?;
+        writer.write_all(file.get_ref()).map_err(WriteError::Io)
     }
 }

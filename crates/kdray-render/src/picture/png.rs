@@ -1,13 +1,12 @@
 //! PNG: what a picture shows, to look at.
 
-use super::Picture;
 use super::false_color::{self, HeatScale};
 use super::legend;
-use super::write::{WriteError, replace_file};
+use super::{Picture, WriteError};
 use crate::options::PictureKind;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
-use std::path::Path;
+use std::io::Write;
 
 /// How finely a PNG tells colours apart.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -37,20 +36,22 @@ impl Picture {
     ///
     /// # Errors
     /// See [`WriteError`].
-    pub fn write_png(&self, path: impl AsRef<Path>, depth: PngDepth) -> Result<(), WriteError> {
+    pub fn write_png(&self, mut writer: impl Write, depth: PngDepth) -> Result<(), WriteError> {
+        let (width, height) = (self.width, self.height);
+        let (Ok(across), Ok(down)) = (u32::try_from(width), u32::try_from(height)) else {
+            return Err(WriteError::TooLarge { width, height });
+        };
         let canvas = self.canvas();
         let (bytes, color): (Vec<u8>, _) = match depth {
             PngDepth::Eight => (canvas.bytes(eight_bits), ExtendedColorType::Rgba8),
             // The encoder takes native byte order.
             PngDepth::Sixteen => (canvas.bytes(u16::to_ne_bytes), ExtendedColorType::Rgba16),
         };
-        let size =
-            |n: usize| u32::try_from(n).map_err(|_| "more pixels than PNG can hold".to_string());
-        replace_file(path.as_ref(), |writer| {
-            PngEncoder::new_with_quality(writer, CompressionType::Default, FilterType::Adaptive)
-                .write_image(&bytes, size(self.width)?, size(self.height)?, color)
-                .map_err(|error| error.to_string())
-        })
+        let mut file = Vec::new();
+        PngEncoder::new_with_quality(&mut file, CompressionType::Default, FilterType::Adaptive)
+            .write_image(&bytes, across, down, color)
+            .map_err(|error| WriteError::Encode(error.into()))?;
+        writer.write_all(&file).map_err(WriteError::Io)
     }
 
     fn canvas(&self) -> Canvas {
