@@ -62,7 +62,7 @@ impl Film {
         }
         let pixels = options.width * options.height;
         let layer = |(name, names): Plan| {
-            let channel = |&name| Some(Channel { name, samples: zeros(name, pixels)? });
+            let channel = |&name| Some(Channel { name, samples: nothing(name, pixels)? });
             Some(Layer { name, channels: names.iter().map(channel).collect::<Option<_>>()? })
         };
         let layers = plans(options).into_iter().map(layer).collect::<Option<_>>()?;
@@ -72,6 +72,7 @@ impl Film {
                 height: options.height,
                 kind: options.picture,
                 complete: false,
+                rendered: filled(false, pixels)?,
                 exposure: options.exposure,
                 heat_max: options.heat_max,
                 layers,
@@ -81,6 +82,7 @@ impl Film {
 
     /// Keeps the values of the pixel of this index.
     pub(crate) fn set(&mut self, index: usize, values: &PixelValues) {
+        self.picture.rendered[index] = true;
         for layer in &mut self.picture.layers {
             let floats: &[f32] = match layer.name {
                 "color" => &values.color,
@@ -106,12 +108,17 @@ impl Film {
     }
 }
 
-fn zeros(name: &str, count: usize) -> Option<Samples> {
-    fn zeros<T: Clone + Default>(count: usize) -> Option<Vec<T>> {
-        let mut samples = Vec::new();
-        samples.try_reserve_exact(count).ok()?;
-        samples.resize(count, T::default());
-        Some(samples)
-    }
-    Some(if name == "id" { Samples::U32(zeros(count)?) } else { Samples::F32(zeros(count)?) })
+/// What a channel holds before anything is rendered.
+fn nothing(name: &str, count: usize) -> Option<Samples> {
+    Some(match name {
+        "id" => Samples::U32(filled(u32::MAX, count)?),
+        _ => Samples::F32(filled(0.0, count)?),
+    })
+}
+
+fn filled<T: Clone>(value: T, count: usize) -> Option<Vec<T>> {
+    let mut samples = Vec::new();
+    samples.try_reserve_exact(count).ok()?;
+    samples.resize(count, value);
+    Some(samples)
 }

@@ -64,7 +64,10 @@ impl Pen<'_> {
 
     fn darken(&mut self, columns: usize, rows: usize) {
         for (x, y) in (0..rows).flat_map(|y| (0..columns).map(move |x| (x, y))) {
-            self.each_pixel(x, y, |[r, g, b, _]| [*r, *g, *b] = [*r / 5, *g / 5, *b / 5]);
+            self.each_pixel(x, y, |pixel| {
+                let [r, g, b, _] = *pixel;
+                *pixel = [r / 5, g / 5, b / 5, u16::MAX];
+            });
         }
     }
 

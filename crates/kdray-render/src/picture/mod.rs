@@ -20,8 +20,11 @@ pub struct Picture {
     pub height: usize,
     /// What a PNG shows.
     pub kind: PictureKind,
-    /// Whether every tile was rendered. Pixels that were not are zero, also in alpha.
+    /// Whether every tile was rendered.
     pub complete: bool,
+    /// Whether each pixel was rendered, the upper row first. Those that were not are zero in every
+    /// layer, also in alpha, and `u32::MAX` in that of ids.
+    pub rendered: Vec<bool>,
     /// What a PNG multiplies colours by.
     pub exposure: f32,
     /// The cost that has the last colour of a heat map's scale; `None` is the 99.5th percentile.

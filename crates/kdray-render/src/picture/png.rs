@@ -27,7 +27,7 @@ pub(crate) struct Canvas {
 
 impl Picture {
     /// Writes what [`kind`](Self::kind) names as a PNG with alpha, which is zero where nothing was
-    /// rendered.
+    /// [`rendered`](Self::rendered), but for the key of a heat map.
     ///
     /// Light and ambient occlusion are encoded as sRGB, light after multiplication by
     /// [`exposure`](Self::exposure). Depth goes from white for the nearest to dark for the farthest
@@ -83,7 +83,7 @@ impl Picture {
 
     fn draw_color(&self, canvas: &mut Canvas) {
         let Some([r, g, b, a]) = self.channels("color", ["R", "G", "B", "A"]) else { return };
-        canvas.fill(|i| {
+        self.fill(canvas, |i| {
             let [r, g, b] = [r[i], g[i], b[i]].map(|x| srgb(x * self.exposure));
             [r, g, b, a[i]]
         });
@@ -92,43 +92,32 @@ impl Picture {
     fn draw_depth(&self, canvas: &mut Canvas) {
         const FARTHEST: f32 = 0.1;
         let Some([depth]) = self.channels("depth", ["Z"]) else { return };
-        // Zero stands for pixels that were not rendered.
-        let surfaces = depth.iter().filter(|z| z.is_finite() && **z > 0.0);
+        let surfaces = self.indices().map(|i| depth[i]).filter(|z| z.is_finite());
         let (near, far) =
-            surfaces.fold((f32::INFINITY, 0.0_f32), |(near, far), &z| (near.min(z), far.max(z)));
-        canvas.fill(|i| {
+            surfaces.fold((f32::INFINITY, 0.0_f32), |(near, far), z| (near.min(z), far.max(z)));
+        self.fill(canvas, |i| {
             let z = depth[i];
             let share = if far > near { (z - near) / (far - near) } else { 0.0 };
-            let gray = if z.is_finite() { 1.0 - share * (1.0 - FARTHEST) } else { 0.0 };
-            if z > 0.0 { [gray, gray, gray, 1.0] } else { [0.0; 4] }
+            opaque([if z.is_finite() { 1.0 - share * (1.0 - FARTHEST) } else { 0.0 }; 3])
         });
     }
 
     fn draw_normal(&self, canvas: &mut Canvas) {
         let Some([x, y, z]) = self.channels("normal", ["X", "Y", "Z"]) else { return };
-        canvas.fill(|i| match [x[i], y[i], z[i]] {
-            [0.0, 0.0, 0.0] => [0.0, 0.0, 0.0, 1.0],
-            n => {
-                let [r, g, b] = n.map(|n| 0.5 + 0.5 * n);
-                [r, g, b, 1.0]
-            }
+        self.fill(canvas, |i| match [x[i], y[i], z[i]] {
+            [0.0, 0.0, 0.0] => opaque([0.0; 3]),
+            n => opaque(n.map(|n| 0.5 + 0.5 * n)),
         });
     }
 
     fn draw_ids(&self, canvas: &mut Canvas) {
         let Some(ids) = self.ids("primitive", "id") else { return };
-        canvas.fill(|i| {
-            let [r, g, b] = false_color::of_id(ids[i]);
-            [r, g, b, 1.0]
-        });
+        self.fill(canvas, |i| opaque(false_color::of_id(ids[i])));
     }
 
     fn draw_occlusion(&self, canvas: &mut Canvas) {
         let Some([open]) = self.channels("occlusion", ["V"]) else { return };
-        canvas.fill(|i| {
-            let gray = srgb(open[i]);
-            [gray, gray, gray, 1.0]
-        });
+        self.fill(canvas, |i| opaque([srgb(open[i]); 3]));
     }
 
     fn draw_cost(&self, canvas: &mut Canvas, title: &str, weights: [f32; 2]) {
@@ -136,23 +125,29 @@ impl Picture {
             return;
         };
         let cost = |i: usize| weights[0] * nodes[i] + weights[1] * primitives[i];
-        let scale = HeatScale::new((0..canvas.pixels.len()).map(cost), self.heat_max);
-        canvas.fill(|i| {
-            let [r, g, b] = scale.color(cost(i));
-            [r, g, b, 1.0]
-        });
+        let scale = HeatScale::new(self.indices().map(cost), self.heat_max);
+        self.fill(canvas, |i| opaque(scale.color(cost(i))));
         legend::draw(canvas, title, &scale);
+    }
+
+    /// The pixels that were rendered.
+    fn indices(&self) -> impl Iterator<Item = usize> {
+        self.rendered.iter().enumerate().filter(|&(_, &rendered)| rendered).map(|(i, _)| i)
+    }
+
+    /// Sets each pixel that was rendered to `color` of its index, RGBA from 0 to 1.
+    fn fill(&self, canvas: &mut Canvas, color: impl Fn(usize) -> [f32; 4]) {
+        for i in self.indices() {
+            canvas.pixels[i] = color(i).map(|x| (x.clamp(0.0, 1.0) * 65535.0).round() as u16);
+        }
     }
 }
 
-impl Canvas {
-    /// Sets each pixel to `color` of its index, RGBA from 0 to 1.
-    fn fill(&mut self, color: impl Fn(usize) -> [f32; 4]) {
-        for (i, pixel) in self.pixels.iter_mut().enumerate() {
-            *pixel = color(i).map(|x| (x.clamp(0.0, 1.0) * 65535.0).round() as u16);
-        }
-    }
+fn opaque([r, g, b]: [f32; 3]) -> [f32; 4] {
+    [r, g, b, 1.0]
+}
 
+impl Canvas {
     fn bytes<const N: usize>(&self, bytes: impl Fn(u16) -> [u8; N]) -> Vec<u8> {
         self.pixels.iter().flatten().flat_map(|&value| bytes(value)).collect()
     }
