@@ -1,7 +1,7 @@
 //! From a world and a camera to a picture, in tiles on all threads.
 
 use crate::camera::{CameraError, View};
-use crate::film::{Film, MAX_PICTURE_BYTES};
+use crate::film::{Film, MAX_PICTURE_BYTES, PixelValues};
 use crate::light::{Lamp, LightError, default_lights};
 use crate::options::RenderOptions;
 use crate::picture::Picture;
@@ -10,8 +10,8 @@ use crate::world::World;
 use kdray_scene::{Camera, Light};
 use rayon::prelude::*;
 use std::ops::{ControlFlow, Range};
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use thiserror::Error;
 
 /// The side of a tile in pixels.
@@ -74,8 +74,8 @@ pub enum RenderError {
 /// Renders `world` as `camera` sees it by `lights`, or by [`default_lights`] if there are none.
 ///
 /// Tiles are shared among the threads of the current rayon pool; the picture is the same bit for
-/// bit for any number of them. `progress` is told after each tile, from any thread but never from
-/// two at once. If it answers [`ControlFlow::Break`], tiles that are not begun are left out, and
+/// bit for any number of them. `progress` is told after tiles, and at the end if there is more to
+/// tell: from any thread, but never from two at once. If it answers [`ControlFlow::Break`], tiles that are not begun are left out, and
 /// the picture says so in [`complete`](Picture::complete).
 ///
 /// # Errors
@@ -104,32 +104,17 @@ pub fn render(
         bytes: Film::bytes(options),
         limit: MAX_PICTURE_BYTES,
     })?;
-
     let tiles = Tiles { width, height };
-    let shared = Mutex::new(Shared { film, progress: RenderProgress::default() });
-    let stopped = AtomicBool::new(false);
+    let work = Work::new(film, tiles, progress);
     (0..tiles.count()).into_par_iter().for_each(|index| {
-        if stopped.load(Ordering::Relaxed) {
-            return;
-        }
-        let (columns, rows) = tiles.tile(index);
-        let tracer = PixelTracer::new(world, &view, &lamps, options);
-        let pixels: Vec<_> = rows
-            .flat_map(|y| columns.clone().map(move |x| [x, y]))
-            .map(|pixel| (pixel, tracer.trace(pixel)))
-            .collect();
-        // A panic while the lock is held would be passed on by rayon; the data stays usable.
-        let mut shared = shared.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-        for ([x, y], values) in &pixels {
-            shared.film.set(y * width + x, values);
-        }
-        shared.progress.advance(tiles.count(), tracer.rays());
-        if progress(shared.progress).is_break() {
-            stopped.store(true, Ordering::Relaxed);
+        if !work.is_stopped() {
+            let tracer = PixelTracer::new(world, &view, &lamps, options);
+            let pixels = tiles.pixels(index).map(|pixel| (pixel, tracer.trace(pixel))).collect();
+            work.keep(pixels, tracer.rays());
+            work.tell();
         }
     });
-    let shared = shared.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
-    Ok(shared.film.develop(shared.progress.tiles_done == tiles.count()))
+    Ok(work.finish())
 }
 
 fn check(options: &RenderOptions) -> Result<(), RenderError> {
@@ -151,9 +136,68 @@ fn check(options: &RenderOptions) -> Result<(), RenderError> {
 }
 
 /// What threads share.
-struct Shared {
+struct Work<'a> {
+    tiles: Tiles,
+    state: Mutex<State>,
+    /// Whoever calls back holds this: how many tiles were done at the last call.
+    told: Mutex<usize>,
+    callback: &'a (dyn Fn(RenderProgress) -> ControlFlow<()> + Sync),
+    stopped: AtomicBool,
+}
+
+struct State {
     film: Film,
     progress: RenderProgress,
+}
+
+impl<'a> Work<'a> {
+    fn new(
+        film: Film,
+        tiles: Tiles,
+        callback: &'a (dyn Fn(RenderProgress) -> ControlFlow<()> + Sync),
+    ) -> Self {
+        let state = Mutex::new(State { film, progress: RenderProgress::default() });
+        Self { tiles, state, told: Mutex::new(0), callback, stopped: AtomicBool::new(false) }
+    }
+
+    fn is_stopped(&self) -> bool {
+        self.stopped.load(Ordering::Relaxed)
+    }
+
+    /// A panic while the lock is held would be passed on by rayon; the data stays usable.
+    fn state(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Keeps the pixels of a tile.
+    fn keep(&self, pixels: Vec<([usize; 2], PixelValues)>, rays: u64) {
+        let mut state = self.state();
+        for ([x, y], values) in &pixels {
+            state.film.set(y * self.tiles.width + x, values);
+        }
+        state.progress.advance(self.tiles.count(), rays);
+    }
+
+    /// Tells how far the work is, unless a call is under way. Nobody may wait for that one: if it
+    /// uses rayon, its own thread may turn to another tile meanwhile, and end up here.
+    fn tell(&self) {
+        let Ok(mut told) = self.told.try_lock() else { return };
+        let progress = self.state().progress;
+        if progress.tiles_done > *told {
+            *told = progress.tiles_done;
+            if (self.callback)(progress).is_break() {
+                self.stopped.store(true, Ordering::Relaxed);
+            }
+        }
+    }
+
+    /// Tells of what is not told yet, and gives the picture.
+    fn finish(self) -> Picture {
+        self.tell();
+        let State { film, progress } =
+            self.state.into_inner().unwrap_or_else(PoisonError::into_inner);
+        film.develop(progress.tiles_done == self.tiles.count())
+    }
 }
 
 impl RenderProgress {
@@ -177,10 +221,11 @@ impl Tiles {
         self.width.div_ceil(TILE) * self.height.div_ceil(TILE)
     }
 
-    /// The columns and rows of a tile.
-    fn tile(self, index: usize) -> (Range<usize>, Range<usize>) {
+    /// The pixels of a tile.
+    fn pixels(self, index: usize) -> impl Iterator<Item = [usize; 2]> {
         let across = self.width.div_ceil(TILE);
         let (x, y) = (index % across * TILE, index / across * TILE);
-        (x..(x + TILE).min(self.width), y..(y + TILE).min(self.height))
+        let (columns, rows) = (x..(x + TILE).min(self.width), y..(y + TILE).min(self.height));
+        rows.flat_map(move |y| columns.clone().map(move |x| [x, y]))
     }
 }

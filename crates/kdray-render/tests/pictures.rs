@@ -7,7 +7,7 @@ mod support;
 use exr::prelude::{ReadChannels, ReadLayers};
 use kdray_render::{
     CameraError, LightError, Picture, PictureKind, PngDepth, RenderError, RenderOptions,
-    WorldError, WriteError, render,
+    RenderProgress, WorldError, WriteError, render,
 };
 use kdray_scene::{Light, Model};
 use std::io::{self, Cursor, Write};
@@ -187,6 +187,28 @@ fn what_was_not_rendered_does_not_count_for_a_heat_scale() {
     let shown = image::load_from_memory(&png(&picture, PngDepth::Eight)).unwrap().to_rgba8();
     let [r, g, b, _] = shown.get_pixel(one as u32 % 64, one as u32 / 64).0;
     assert!(r > 100 && g < 50 && b < 50, "{r} {g} {b}");
+}
+
+#[test]
+fn a_callback_may_use_the_threads_that_render() {
+    let (sender, ended) = std::sync::mpsc::channel();
+    std::thread::spawn(move || {
+        let (world, camera, lights) = still_life();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+        let told = AtomicUsize::new(0);
+        // The only thread turns to another tile while it is told of the first.
+        let progress = |progress: RenderProgress| {
+            assert!(progress.tiles_done > told.swap(progress.tiles_done, Ordering::Relaxed));
+            rayon::yield_now();
+            ControlFlow::Continue(())
+        };
+        let options = small(PictureKind::Shaded);
+        let render = || render(&world, &camera, &lights, &options, &progress).unwrap();
+        let complete = pool.install(render).complete;
+        sender.send((complete, told.into_inner())).unwrap();
+    });
+    let ended = ended.recv_timeout(std::time::Duration::from_secs(120));
+    assert_eq!(ended, Ok((true, 12)), "all tiles, and the last progress tells of all");
 }
 
 #[test]
