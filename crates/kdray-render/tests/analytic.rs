@@ -140,6 +140,29 @@ fn veils_let_their_share_through_also_of_shadow_rays() {
 }
 
 #[test]
+fn what_lies_exactly_under_a_cut_out_or_a_veil_is_seen() {
+    let sun = Light::Directional { direction: [0.0, -1.0, 0.0], irradiance: [PI as f32; 3] };
+    for (alpha_mode, seen, id) in [(AlphaMode::Mask(0.5), 1.0, 2), (AlphaMode::Blend, 0.6, 0)] {
+        let cover = Material { opacity: 0.4, alpha_mode, ..lambert(0.0) };
+        let mut model = Model { materials: vec![cover, lambert(1.0)], ..Model::default() };
+        add_floor(&mut model, 5.0, 0.0, 0);
+        add_floor(&mut model, 5.0, 0.0, 1);
+        let world = world(model);
+        // Within a triangle, and on the edge that two of them share.
+        for at in [[0.3, 0.1], [0.0, 0.0]] {
+            let suns = std::slice::from_ref(&sun);
+            assert_near(light_above(&world, at, suns, &plain(1, 1, 1)), seen, 1e-6);
+        }
+        let options = RenderOptions { all_layers: true, ..plain(1, 1, 1) };
+        let picture = shoot(&world, &from_above(0.1, 0.3, 1e-6), &[DARK], &options);
+        let ids = picture.ids("primitive", "id").unwrap();
+        assert_eq!(ids[0] & !1, id, "the floor of triangles {id} and {}", id + 1);
+        assert_eq!(picture.floats("depth", "Z").unwrap(), [50.0]);
+        assert!(picture.floats("cost", "primitives").unwrap()[0] > 0.0);
+    }
+}
+
+#[test]
 fn shadows_are_hard_from_points_and_soft_from_rectangles() {
     let mut model = floor(lambert(1.0));
     add_box(&mut model, [0.0, 1.0, -4.0], [4.0, 1.1, 4.0], 0);

@@ -5,7 +5,7 @@ use super::gloss::Gloss;
 use crate::light::Lamp;
 use crate::options::RenderOptions;
 use crate::sampling::Sampler;
-use crate::surface::Surface;
+use crate::surface::{Surface, opacity};
 use crate::world::World;
 use glam::{DVec3, Vec3};
 use kdray::{Hit, Ray};
@@ -80,21 +80,32 @@ impl<'a> Tracer<'a> {
     }
 
     /// The radiance that comes back along `ray`, whose direction has unit length.
-    pub(crate) fn radiance(&self, mut ray: Ray, path: &Path) -> Vec3 {
+    pub(crate) fn radiance(&self, ray: Ray, path: &Path) -> Vec3 {
+        self.count_ray();
+        let scene = self.world.scene();
+        match scene.closest_hit(&ray) {
+            // Behind a cut-out or a veil the ray goes on. All that it crosses is asked for, in
+            // order, since another surface may lie at the very same t.
+            Some(hit) if opacity(self.world, &hit) < 1.0 => {
+                let rest = ray.with_interval(hit.t, ray.interval.t_max);
+                self.radiance_of(scene.all_hits(&rest), &ray, path)
+            }
+            first => self.radiance_of(first.into_iter(), &ray, path),
+        }
+    }
+
+    /// The radiance that comes back along `ray` from its `hits`, which are in order.
+    fn radiance_of(&self, hits: impl Iterator<Item = Hit>, ray: &Ray, path: &Path) -> Vec3 {
         let (mut sum, mut through) = (Vec3::ZERO, Vec3::ONE);
-        loop {
-            self.count_ray();
-            let hit = self.world.scene().closest_hit(&ray);
-            if let Some(glow) = self.seen_lamp(&ray, hit.as_ref(), path) {
+        let mut t_before = ray.interval.t_min;
+        for hit in hits {
+            if let Some(glow) = self.seen_lamp(ray, [t_before, hit.t], path) {
                 return sum + through * glow;
             }
-            let Some(hit) = hit else {
-                return sum + through * self.options.background.radiance(ray.direction.into());
-            };
-            let surface = Surface::new(self.world, &ray, &hit);
+            let surface = Surface::new(self.world, ray, &hit);
             if surface.opacity > 0.0 {
                 if !surface.outside {
-                    through *= attenuation(surface.material, hit.t - ray.interval.t_min);
+                    through *= attenuation(surface.material, hit.t - t_before);
                 }
                 sum += through * surface.opacity * self.shade(&surface, path);
             }
@@ -102,22 +113,22 @@ impl<'a> Tracer<'a> {
             if through.max_element() * path.weight < NEGLIGIBLE {
                 return sum;
             }
-            // The same ray goes on behind the surface: t depends on nothing but the ray and the
-            // triangle, so this leaves out what was met and nothing behind it.
-            ray.interval.t_min = hit.t.next_up();
+            t_before = hit.t;
         }
+        let behind = self.seen_lamp(ray, [t_before, f64::INFINITY], path);
+        let sky = || self.options.background.radiance(ray.direction.into());
+        sum + through * behind.unwrap_or_else(sky)
     }
 
-    /// The radiance of a lamp's surface that the ray meets before `hit`.
-    fn seen_lamp(&self, ray: &Ray, hit: Option<&Hit>, path: &Path) -> Option<Vec3> {
+    /// The radiance of a lamp's surface that the ray meets between two places.
+    fn seen_lamp(&self, ray: &Ray, [from, to]: [f64; 2], path: &Path) -> Option<Vec3> {
         if !path.sees_lamps {
             return None;
         }
-        let t_far = hit.map_or(f64::INFINITY, |hit| hit.t);
         let seen = |lamp: &Lamp| lamp.seen(ray.origin.into(), ray.direction.into());
-        let nearer = |&(t, _): &(f64, Vec3)| ray.interval.t_min < t && t < t_far;
+        let between = |&(t, _): &(f64, Vec3)| from < t && t < to;
         let nearest = |a: &(f64, Vec3), b: &(f64, Vec3)| a.0.total_cmp(&b.0);
-        self.lamps.iter().filter_map(seen).filter(nearer).min_by(nearest).map(|(_, glow)| glow)
+        self.lamps.iter().filter_map(seen).filter(between).min_by(nearest).map(|(_, glow)| glow)
     }
 
     /// The light that an opaque point of a surface sends to the viewer: its emission, what it
