@@ -263,9 +263,7 @@ fn compare_of_nothing_is_a_table_without_rays_that_hit() {
         assert_eq!(it["bounce"]["rays"], 0);
         assert_eq!(it["bounce"]["mrays_per_second"], Value::Null);
     }
-    for [option, bad] in
-        [["--rounds", "0"], ["--rounds", "4294967295"], ["--rays", "4294967295"]]
-    {
+    for [option, bad] in [["--rounds", "0"], ["--rounds", "4294967295"], ["--rays", "4294967295"]] {
         folder.kdray(&["compare", "ball.off", option, bad]).fails(USAGE, &[option, bad]);
     }
     folder.kdray(&["compare", "ball.off", "--plot", "a.txt"]).fails(USAGE, &["a.txt", ".svg"]);

@@ -30,7 +30,7 @@ impl Tracer<'_> {
             let count = if lamp.is_sharp() { 1 } else { soft };
             let sampler = path.sampler.fork(LAMPS).fork(index as u32);
             for i in 0..count {
-                let arrival = lamp.arrival(surface.at.position(), sampler.point(i, count));
+                let arrival = lamp.arrival(surface.at.point.position(), sampler.point(i, count));
                 sum += self.reflected(surface, diffuse, gloss, &arrival) / count as f32;
             }
         }
@@ -48,7 +48,7 @@ impl Tracer<'_> {
             Source::Far(to_light) => (surface.at.ray_along(to_light), to_light),
             Source::Point(position) => {
                 let ray = surface.at.ray_to(position).with_interval(0.0, SHORT_OF_LIGHT);
-                (ray, (position - surface.at.position()).normalize_or_zero())
+                (ray, (position - surface.at.point.position()).normalize_or_zero())
             }
         };
         let cos = surface.normal.dot(to_light);
@@ -80,7 +80,7 @@ impl Tracer<'_> {
         for i in 0..count {
             let local = cosine_hemisphere(sampler.point(i, count));
             let direction = x * local.x + y * local.y + surface.normal * local.z;
-            if direction.dot(surface.at.facing()) > 0.0 {
+            if direction.dot(surface.at.facing) > 0.0 {
                 let ray =
                     surface.at.ray_along(direction).with_interval(0.0, self.occlusion_distance);
                 sum += self.transmittance(&ray);
@@ -94,8 +94,8 @@ impl Tracer<'_> {
 /// light, so that shadows do not end at the edges of triangles: Chiang, Li and Burley, "Taming the
 /// Shadow Terminator" (SIGGRAPH 2019 Talks). 1 for flat triangles.
 fn terminator(surface: &Surface<'_>, to_light: DVec3) -> f64 {
-    let (n_l, g_l) = (surface.normal.dot(to_light), surface.at.facing().dot(to_light));
-    let n_g = surface.normal.dot(surface.at.facing());
+    let (n_l, g_l) = (surface.normal.dot(to_light), surface.at.facing.dot(to_light));
+    let n_g = surface.normal.dot(surface.at.facing);
     if g_l <= 0.0 {
         return 0.0;
     }

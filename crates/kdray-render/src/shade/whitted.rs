@@ -211,12 +211,12 @@ impl<'a> Tracer<'a> {
 
     /// `weight` times what comes from `direction` on the viewer's side of the surface.
     fn bounce(&self, surface: &Surface<'_>, direction: DVec3, weight: Vec3, path: &Path) -> Vec3 {
-        self.follow(surface, kept_on_side(direction, surface.at.facing()), weight, path)
+        self.follow(surface, kept_on_side(direction, surface.at.facing), weight, path)
     }
 
     /// `weight` times what comes from `direction` behind the surface.
     fn pass(&self, surface: &Surface<'_>, direction: DVec3, weight: Vec3, path: &Path) -> Vec3 {
-        self.follow(surface, kept_on_side(direction, -surface.at.facing()), weight, path)
+        self.follow(surface, kept_on_side(direction, -surface.at.facing), weight, path)
     }
 
     fn follow(&self, surface: &Surface<'_>, direction: DVec3, weight: Vec3, path: &Path) -> Vec3 {

@@ -1,10 +1,10 @@
 //! Rays that leave surfaces: no acne outside, no leak inside.
 
-use super::Surface;
+use super::{HitPoint, Surface};
 use crate::World;
 use crate::sampling::{Sampler, cosine_hemisphere, tangents};
 use glam::{DVec3, Vec3};
-use kdray::{BuildOptions, Hit, Ray};
+use kdray::{BuildOptions, Hit, Ray, Side, TriangleMesh};
 use kdray_scene::Model;
 use std::ops::ControlFlow;
 
@@ -69,10 +69,10 @@ fn rays_leave_a_closed_ball_without_acne_and_stay_inside_without_leaks() {
         let directions = Sampler::new(8, [0, 0], 0, 1);
         for (ray, hit) in hits(&world, center, radius) {
             let surface = Surface::new(&world, &ray, &hit);
-            let (x, y) = tangents(surface.at.facing());
+            let (x, y) = tangents(surface.at.facing);
             for i in 0..8 {
                 let local = cosine_hemisphere(directions.point(i, 8));
-                let outward = x * local.x + y * local.y + surface.at.facing() * local.z;
+                let outward = x * local.x + y * local.y + surface.at.facing * local.z;
                 // Outside the ball bulges nowhere above the plane of a triangle, but for the
                 // rounding of its vertices, which at 1e6 makes it a little uneven.
                 let leaving = world.scene().closest_hit(&surface.at.ray_along(outward));
@@ -87,6 +87,18 @@ fn rays_leave_a_closed_ball_without_acne_and_stay_inside_without_leaks() {
                 assert_eq!(world.scene().count(&inward) % 2, 1, "it starts inside");
             }
         }
+    }
+}
+
+#[test]
+fn a_sliver_without_a_computed_normal_faces_the_viewer_from_both_sides() {
+    // So thin that f64 loses its height; yet it is hit, as hits are exact.
+    let thin = [[1e-30, 0.0, 0.0], [2.0, 2.0, 0.0], [1.0, 1.0, 0.0]];
+    let mesh = TriangleMesh::from_soup([thin]).unwrap();
+    let hit = |side| Hit { t: 1.0, primitive_id: 0, u: 0.25, v: 0.25, side };
+    let ray = Ray::new([0.75, 0.8, 0.0], [0.0, -0.05, 0.0]);
+    for side in [Side::Front, Side::Back] {
+        assert_eq!(HitPoint::new(&mesh, &ray, &hit(side)).facing(), [0.0, 1.0, 0.0], "{side:?}");
     }
 }
 

@@ -150,12 +150,7 @@ fn by_tree(scene: &Scene, set: &RaySet) -> Figures {
     Figures { set: set.name, rays: answers.len(), stride: 1, counters, seconds: 0.0, answers }
 }
 
-fn by_testing_all(
-    mesh: &TriangleMesh,
-    bounds: &Aabb<3>,
-    set: &RaySet,
-    rounds: u32,
-) -> Figures {
+fn by_testing_all(mesh: &TriangleMesh, bounds: &Aabb<3>, set: &RaySet, rounds: u32) -> Figures {
     let stride = naive_stride(set.rays.len(), mesh.count(), rounds);
     let counted = Counted::new(mesh);
     let naive = Naive::new(&counted, *bounds);

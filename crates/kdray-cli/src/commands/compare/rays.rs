@@ -74,12 +74,13 @@ fn places(scene: &Scene, rays: &[Ray]) -> Vec<HitPoint> {
 
 /// To the light, and no farther.
 fn shadow(places: &[HitPoint], light: &Light) -> Vec<Ray> {
-    let to = |place: &HitPoint, target: DVec3| place.ray_to(target).with_interval(0.0, 1.0);
+    let to = |place: &HitPoint, target: [f64; 3]| place.ray_to(target).with_interval(0.0, 1.0);
     let ray = |place: &HitPoint| match *light {
-        Light::Point { position, .. } => to(place, position.into()),
+        Light::Point { position, .. } => to(place, position),
         Light::Directional { direction, .. } => place.ray_along(-DVec3::from(direction)),
         Light::Rectangle { corner, edge_u, edge_v, .. } => {
-            to(place, DVec3::from(corner) + (DVec3::from(edge_u) + DVec3::from(edge_v)) / 2.0)
+            let middle = DVec3::from(corner) + (DVec3::from(edge_u) + DVec3::from(edge_v)) / 2.0;
+            to(place, middle.into())
         }
     };
     places.iter().map(ray).collect()
@@ -94,7 +95,8 @@ fn bounce(places: &[HitPoint]) -> Vec<Ray> {
         let angle: f64 = random.random_range(0.0..std::f64::consts::TAU);
         let r = (1.0 - z * z).sqrt();
         let sphere = DVec3::new(r * angle.cos(), r * angle.sin(), z);
-        place.ray_along((place.facing() + sphere).normalize_or(place.facing()))
+        let facing = DVec3::from(place.facing());
+        place.ray_along((facing + sphere).normalize_or(facing))
     };
     places.iter().map(direction).collect()
 }
