@@ -119,6 +119,17 @@ fn rays_that_cannot_be_traced_miss_and_are_counted() {
 }
 
 #[test]
+fn an_interval_that_is_no_number_is_a_miss_with_a_warning() {
+    let folder = Folder::new();
+    folder.file("ball.off", OCTAHEDRON);
+    let rays = "0,0,5,0,0,-1,nan,9\n0,0,5,0,0,-1,0,nan\n0,0,5,0,0,-1,0,inf\n";
+    let arguments = ["query", "ball.off", "--rays", "-", "--mode", "any", "--out", "-"];
+    let ran = folder.kdray_reading(&arguments, rays).succeeds();
+    assert_eq!(ran.stdout, "occluded\nfalse\nfalse\ntrue\n");
+    assert!(ran.stderr.contains("2 of 3 rays cannot be traced"), "{}", ran.stderr);
+}
+
+#[test]
 fn an_empty_interval_is_a_miss_without_a_warning() {
     let folder = Folder::new();
     folder.file("ball.off", OCTAHEDRON);
@@ -165,6 +176,7 @@ fn a_missing_texture_or_material_library_is_a_warning() {
         let ran = folder.kdray(&["stats", file]).succeeds();
         assert!(ran.stderr.contains("warning:"), "{}", ran.stderr);
         assert!(ran.stderr.contains(missing), "{}", ran.stderr);
+        assert!(ran.stderr.contains("left out"), "{}", ran.stderr);
     }
 }
 
@@ -243,7 +255,8 @@ fn fed_without_end(folder: &Folder, arguments: &[&str], bytes: &[u8]) -> (Option
 fn files_that_hold_no_rays_are_refused_by_place() {
     let folder = Folder::new();
     folder.file("ball.off", OCTAHEDRON);
-    let cases: [(&str, Vec<u8>, &[&str]); 14] = [
+    let cases: [(&str, Vec<u8>, &[&str]); 15] = [
+        ("scene.json", b"{\n  \"asset\": {}\n}\n".to_vec(), &["line 1", "has 1 numbers", "6"]),
         ("five.csv", b"1,2,3,4,5\n".to_vec(), &["line 1", "has 5 numbers"]),
         ("uneven.csv", b"1,2,3,4,5,6\n\n1,2,3\n".to_vec(), &["line 3", "has 3 numbers"]),
         ("word.csv", b"1,2,3,4,5,6\n1,2,x,4,5,6\n".to_vec(), &["line 2", "`x` is not a number"]),

@@ -8,7 +8,7 @@ use std::io::{BufRead, Read};
 const MAX_LINE: usize = 1 << 16;
 
 /// Rays from lines of 6 or 8 numbers. Empty lines, and those that begin with `#`, are passed over,
-/// and so is a first line of names.
+/// and so is a first line of as many names, with the mark of UTF-8 before it or without.
 pub(crate) struct CsvRays {
     source: Box<dyn BufRead>,
     /// The line that was read last, from 1.
@@ -28,13 +28,14 @@ impl CsvRays {
         while rays.len() < limit && self.next_line()? {
             let line = self.line;
             let text = std::str::from_utf8(&self.text).map_err(|_| bad(line, "is not text"))?;
-            let text = text.trim();
+            let text = if line == 1 { text.trim_start_matches('\u{feff}') } else { text }.trim();
             if text.is_empty() || text.starts_with('#') {
                 continue;
             }
+            let found = check_columns(line, text, &mut self.columns)?;
             let is_heading = text.split(',').all(|field| field.trim().parse::<f64>().is_err());
             if !(std::mem::take(&mut self.may_be_heading) && is_heading) {
-                rays.push(ray(line, text, &mut self.columns)?);
+                rays.push(ray(line, text, found)?);
             }
         }
         Ok(())
@@ -53,8 +54,8 @@ impl CsvRays {
     }
 }
 
-/// The ray of a line, which must have as many numbers as the lines before.
-fn ray(line: u64, text: &str, columns: &mut Option<usize>) -> Result<Ray, RaysError> {
+/// How many fields the line has, which must be as many as the lines before have.
+fn check_columns(line: u64, text: &str, columns: &mut Option<usize>) -> Result<usize, RaysError> {
     let found = text.split(',').count();
     let expected = *columns.get_or_insert(found);
     if !matches!(expected, 6 | 8) {
@@ -65,6 +66,11 @@ fn ray(line: u64, text: &str, columns: &mut Option<usize>) -> Result<Ray, RaysEr
         let reason = format!("has {found} numbers, but the lines before have {expected}");
         return Err(bad(line, reason));
     }
+    Ok(found)
+}
+
+/// The ray of a line of so many numbers.
+fn ray(line: u64, text: &str, found: usize) -> Result<Ray, RaysError> {
     let mut row = [0.0; 8];
     for (value, text) in row.iter_mut().zip(text.split(',').map(str::trim)) {
         *value = text.parse().map_err(|_| {
@@ -83,6 +89,31 @@ fn bad(line: u64, reason: impl Into<String>) -> RaysError {
 mod tests {
     use super::*;
     use std::io;
+
+    fn rays_of(text: &'static str) -> Result<Vec<Ray>, String> {
+        let mut rays = Vec::new();
+        let mut csv = CsvRays::new(Box::new(text.as_bytes()));
+        csv.read(9, &mut rays).map(|()| rays).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn a_heading_has_as_many_names_as_rays_have_numbers() {
+        let ray = Ray::new([1.0, 2.0, 3.0], [4.0, 5.0, 6.0]);
+        assert_eq!(rays_of("ox,oy,oz,dx,dy,dz\n1,2,3,4,5,6\n"), Ok(vec![ray]));
+        for no_rays in ["{\n}\n", "hello\n", "a,b,c,d,e,f,g\n1,2,3,4,5,6\n"] {
+            let error = rays_of(no_rays).unwrap_err();
+            assert!(error.starts_with("line 1: has ") && error.contains("give 6"), "{error}");
+        }
+        let error = rays_of("a,b,c,d,e,f\n1,2,3,4,5,6,7,8\n").unwrap_err();
+        assert!(error.contains("line 2: has 8 numbers, but"), "{error}");
+    }
+
+    #[test]
+    fn the_mark_of_utf_8_is_passed_over() {
+        for text in ["\u{feff}1,2,3,4,5,6\n", "\u{feff}ox,oy,oz,dx,dy,dz\r\n1,2,3,4,5,6\r\n"] {
+            assert_eq!(rays_of(text).map(|rays| rays.len()), Ok(1), "{text}");
+        }
+    }
 
     #[test]
     fn a_line_without_end_is_refused() {
