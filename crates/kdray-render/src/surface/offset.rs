@@ -113,7 +113,7 @@ mod tests {
                     // An edge that leads by the origin, its middle, and a corner next to that.
                     let mut corner = |size: f64| (stretch * size * in_cube(&mut random)).as_vec3();
                     let (near, far) = (corner(height), corner(1.0));
-                    let corners = [near, far, far / 2.0].map(|p| p.as_dvec3());
+                    let corners = [near, far, far / 2.0].map(glam::Vec3::as_dvec3);
                     assert!(both_sides_are_right(corners, &mut random), "{corners:?}");
                 }
             }
