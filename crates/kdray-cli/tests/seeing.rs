@@ -179,6 +179,10 @@ fn pictures_that_cannot_be_drawn_are_refused() {
     fails(&far, USAGE, &["--window"]);
     fails(&["eight.off", "-o", "a.svg", "--window", "0,1,0,1"], USAGE, &["--slice"]);
     fails(&["eight.off", "-o", "a.png", "--depth", "13"], USAGE, &["--depth 13", "12", "--slice"]);
+    for option in ["--eye=1,2,3", "--light=1,2,3", "--samples=9", "--camera=0", "--color=depth"] {
+        let arguments = ["eight.off", "-o", "a.svg", "--slice", "z=0", option];
+        fails(&arguments, USAGE, &["--slice", "cannot be used with", &option[..5]]);
+    }
     fails(&["eight.off", "-o", "a.gif"], USAGE, &["a.gif", ".png"]);
     fails(&["eight.off"], USAGE, &["--out"]);
     fails(&["empty.off", "-o", "a.png"], INPUT, &["empty.off", "no triangles"]);

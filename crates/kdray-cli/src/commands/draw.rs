@@ -20,6 +20,10 @@ use std::path::{Path, PathBuf};
 const MAX_WIREFRAME_DEPTH: u32 = 12;
 const WIREFRAME_DEPTH: u32 = 5;
 
+/// What has no meaning for a slice.
+const OF_A_RENDER: [&str; 8] =
+    ["eye", "look_at", "up", "fov", "camera", "light", "samples", "color"];
+
 /// Draw the tree: its cells over a render, or a slice through it
 ///
 /// Without --slice, the planes of the tree's upper levels are drawn as outlines over a render of
@@ -41,7 +45,7 @@ pub(crate) struct Args {
     #[arg(long, short, value_name = "OUT.svg|png")]
     out: PathBuf,
     /// Show this plane through the scene instead of a render
-    #[arg(long, value_name = "x|y|z=VALUE", allow_hyphen_values = true, value_parser = slice_plane)]
+    #[arg(long, value_name = "x|y|z=VALUE", allow_hyphen_values = true, value_parser = slice_plane, conflicts_with_all = OF_A_RENDER)]
     slice: Option<(usize, f64)>,
     /// Show only this part of a slice, in the numbers at its edges: from the left to the right, and
     /// from below to above
@@ -52,7 +56,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "N")]
     depth: Option<u32>,
     /// What the colours of lines over a render say
-    #[arg(long, value_name = "WHAT", default_value = "axis", conflicts_with = "slice")]
+    #[arg(long, value_name = "WHAT", default_value = "axis")]
     color: LineColor,
     /// Rays a pixel of the render
     #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(1..))]
