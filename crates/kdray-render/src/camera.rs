@@ -13,9 +13,12 @@ const FRAME_FILL: f64 = 0.92;
 
 /// Why a camera cannot be used.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
 pub enum CameraError {
     /// A coordinate is infinite or NaN.
-    #[error("the camera's eye, look-at point and up vector must be finite")]
+    #[error(
+        "the camera's eye, look-at point and up vector must be finite; mend the number that is not"
+    )]
     NotFinite,
     /// The camera looks nowhere.
     #[error("the camera's eye and look-at point are the same; move one of them")]

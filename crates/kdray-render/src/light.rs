@@ -8,12 +8,13 @@ use thiserror::Error;
 
 /// Why a light cannot be used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
 pub enum LightError {
     /// A number is infinite or NaN.
-    #[error("light {0} has a number that is not finite")]
+    #[error("light {0} has a number that is not finite; give finite ones")]
     NotFinite(usize),
     /// A direction has no length.
-    #[error("light {0} has a direction of length zero")]
+    #[error("light {0} has a direction of length zero; give one of any other length")]
     ZeroDirection(usize),
 }
 

@@ -32,6 +32,7 @@ pub struct RenderProgress {
 
 /// Why a picture cannot be rendered.
 #[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
 pub enum RenderError {
     /// The picture has no pixels.
     #[error("a picture of {width} x {height} has no pixels; give a width and a height above zero")]

@@ -16,6 +16,7 @@ pub struct World {
 
 /// Why a model cannot be rendered.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
 pub enum WorldError {
     /// The mesh is refused.
     #[error(transparent)]
@@ -34,7 +35,9 @@ pub enum WorldError {
         triangles: usize,
     },
     /// A triangle names a material that is not there.
-    #[error("triangle {triangle} uses material {material}, but there are only {materials}")]
+    #[error(
+        "triangle {triangle} uses material {material}, but there are only {materials}; add the missing ones, or choose another"
+    )]
     NoSuchMaterial {
         /// The index of the triangle.
         triangle: usize,
@@ -44,7 +47,9 @@ pub enum WorldError {
         materials: usize,
     },
     /// A material names a texture that is not there.
-    #[error("material {material} uses texture {texture}, but there are only {textures}")]
+    #[error(
+        "material {material} uses texture {texture}, but there are only {textures}; add the missing ones, or choose another"
+    )]
     NoSuchTexture {
         /// The index of the material.
         material: usize,
@@ -54,7 +59,9 @@ pub enum WorldError {
         textures: usize,
     },
     /// A texture has no pixels, or not as many as its size says.
-    #[error("texture {texture} is {width} x {height}, but holds {pixels} pixels")]
+    #[error(
+        "texture {texture} is {width} x {height}, but holds {pixels} pixels; give width times height, and at least one"
+    )]
     TextureSize {
         /// The index of the texture.
         texture: usize,
