@@ -48,7 +48,7 @@ pub struct RenderOptions {
     /// Camera rays per pixel, stratified over it; a single one goes through the pixel's middle.
     /// Depth, normal and primitive id always take one.
     pub samples: u32,
-    /// How many times a ray may be mirrored or refracted; 0 shows surfaces by direct light only.
+    /// How many times a ray may be mirrored or refracted; then it brings the ambient light.
     pub max_bounces: u32,
     /// What to compute, and what a PNG shows.
     pub picture: PictureKind,

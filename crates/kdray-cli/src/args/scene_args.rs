@@ -11,7 +11,7 @@ pub(crate) struct SceneArgs {
     /// standard input and needs --format. Without it, the built-in scene
     #[arg(value_name = "SCENE")]
     pub(crate) scene: Option<PathBuf>,
-    /// The format, where neither the file's name nor its content tells it
+    /// The format, whatever the file's name and content tell; without it they decide
     #[arg(long, value_name = "FORMAT")]
     pub(crate) format: Option<SceneFormat>,
     /// Refuse a file that is longer than this after decompression; without it 8 GiB, and 1 GiB

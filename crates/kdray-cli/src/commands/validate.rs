@@ -12,8 +12,9 @@ use serde::Serialize;
 
 /// Build the tree and check every invariant
 ///
-/// Children partition their parents, each triangle is in every leaf whose cell it touches, depths
-/// are within bounds. The first broken invariant is named, and the exit code is 1.
+/// Children partition their parents; each point of a triangle lies in the closed cell of some leaf
+/// that lists the triangle; no leaf lists a triangle that has no part in its cell; no node is
+/// deeper than 64. The first broken invariant is named, and the exit code is 1.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Example: check the tree of a mesh that is cut in the middle
