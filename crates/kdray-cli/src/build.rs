@@ -23,7 +23,7 @@ pub(crate) fn scene(
 pub(crate) fn world(model: Model, args: &BuildArgs, globals: &Globals) -> Result<World, CliError> {
     let progress = start(model.triangles.len(), globals);
     let _watch = interrupt::watch();
-    let world = World::new(model, &args.options(), &|done| step(&progress, done))?;
+    let world = World::new_with_progress(model, &args.options(), &|done| step(&progress, done))?;
     finish(progress, world.scene());
     Ok(world)
 }

@@ -20,6 +20,6 @@ pub use camera::{CameraError, View, frame};
 pub use light::{LightError, default_lights, point_light_for};
 pub use options::{Background, PictureKind, RenderOptions};
 pub use picture::{Channel, Layer, Picture, PngDepth, Samples, WriteError};
-pub use render::{RenderError, RenderProgress, render};
+pub use render::{RenderError, RenderProgress, render, render_with_progress};
 pub use surface::HitPoint;
 pub use world::{World, WorldError};

@@ -74,6 +74,36 @@ pub enum RenderError {
 
 /// Renders `world` as `camera` sees it by `lights`, or by [`default_lights`] if there are none.
 ///
+/// ```
+/// use kdray_render::{PngDepth, RenderOptions, World, frame, render};
+/// use kdray_scene::Model;
+/// let model = Model {
+///     vertices: vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+///     triangles: vec![[0, 1, 2]],
+///     ..Model::default()
+/// };
+/// let world = World::new(model, &kdray::BuildOptions::default())?;
+/// let options = RenderOptions { width: 24, height: 16, samples: 1, ..RenderOptions::default() };
+/// let picture = render(&world, &frame(world.bounds(), 1.5), &[], &options)?;
+/// let mut png = Vec::new();
+/// picture.write_png(&mut png, PngDepth::Eight)?;
+/// assert!(png.starts_with(b"\x89PNG"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// What about the size, the camera, the lights or the options is unusable, before any work.
+pub fn render(
+    world: &World,
+    camera: &Camera,
+    lights: &[Light],
+    options: &RenderOptions,
+) -> Result<Picture, RenderError> {
+    render_with_progress(world, camera, lights, options, &|_| ControlFlow::Continue(()))
+}
+
+/// [`render()`] with word on how far it is.
+///
 /// Tiles are shared among the threads of the current rayon pool; the picture is the same bit for
 /// bit for any number of them. `progress` is told after tiles, and at the end if there is more to
 /// tell: from any thread, but never from two at once. If it answers [`ControlFlow::Break`], tiles that are not begun are left out, and
@@ -81,7 +111,7 @@ pub enum RenderError {
 ///
 /// # Errors
 /// What about the size, the camera, the lights or the options is unusable, before any work.
-pub fn render(
+pub fn render_with_progress(
     world: &World,
     camera: &Camera,
     lights: &[Light],

@@ -75,12 +75,20 @@ pub enum WorldError {
 }
 
 impl World {
+    /// Builds the tree over the model's triangles.
+    ///
+    /// # Errors
+    /// What in the model contradicts itself, or why there is no tree.
+    pub fn new(model: Model, options: &BuildOptions) -> Result<Self, WorldError> {
+        Self::new_with_progress(model, options, &|_| ControlFlow::Continue(()))
+    }
+
     /// Builds the tree over the model's triangles, tells `progress` how far it is, and stops if
     /// that answers [`ControlFlow::Break`].
     ///
     /// # Errors
     /// What in the model contradicts itself, or why there is no tree.
-    pub fn new(
+    pub fn new_with_progress(
         mut model: Model,
         options: &BuildOptions,
         progress: &(dyn Fn(BuildProgress) -> ControlFlow<()> + Sync),

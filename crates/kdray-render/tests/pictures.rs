@@ -7,7 +7,7 @@ mod support;
 use exr::prelude::{ReadChannels, ReadLayers};
 use kdray_render::{
     CameraError, LightError, Picture, PictureKind, PngDepth, RenderError, RenderOptions,
-    RenderProgress, WorldError, WriteError, render,
+    RenderProgress, WorldError, WriteError, render_with_progress,
 };
 use kdray_scene::{Light, Model};
 use std::io::{self, Cursor, Write};
@@ -137,7 +137,7 @@ fn stopped_after(tiles: usize, options: &RenderOptions) -> Picture {
     let calls = AtomicUsize::new(0);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
     let picture = pool.install(|| {
-        render(&world, &camera, &lights, options, &|progress| {
+        render_with_progress(&world, &camera, &lights, options, &|progress| {
             assert_eq!(progress.tiles_done, calls.fetch_add(1, Ordering::Relaxed) + 1);
             if progress.tiles_done == tiles {
                 ControlFlow::Break(())
@@ -203,8 +203,8 @@ fn a_callback_may_use_the_threads_that_render() {
             ControlFlow::Continue(())
         };
         let options = small(PictureKind::Shaded);
-        let render = || render(&world, &camera, &lights, &options, &progress).unwrap();
-        let complete = pool.install(render).complete;
+        let render = || render_with_progress(&world, &camera, &lights, &options, &progress);
+        let complete = pool.install(render).unwrap().complete;
         sender.send((complete, told.into_inner())).unwrap();
     });
     let ended = ended.recv_timeout(std::time::Duration::from_secs(120));
@@ -291,7 +291,12 @@ fn a_picture_that_no_png_can_hold_is_refused() {
 fn what_cannot_be_rendered_is_refused() {
     let (world, camera, lights) = still_life();
     let refused = |camera: &_, lights: &[Light], options: &RenderOptions| {
-        render(&world, camera, lights, options, &|_| panic!("work was begun")).unwrap_err()
+        let begun = |_| panic!("work was begun");
+        let error = render_with_progress(&world, camera, lights, options, &begun).unwrap_err();
+        let advised =
+            error.to_string().contains("; ") || matches!(error, RenderError::Option { .. });
+        assert!(advised, "it does not say what to do: {error}");
+        error
     };
     let sized = |width, height| RenderOptions { width, height, ..small(PictureKind::Shaded) };
     let empty = RenderError::EmptyPicture { width: 0, height: 5 };
@@ -322,8 +327,9 @@ fn models_that_contradict_themselves_are_refused() {
         let mut model = Model { materials: vec![lambert(1.0)], ..Model::default() };
         add_floor(&mut model, 1.0, 0.0, 0);
         change(&mut model);
-        let go_on = ControlFlow::Continue(());
-        kdray_render::World::new(model, &kdray::BuildOptions::default(), &|_| go_on).unwrap_err()
+        let error = kdray_render::World::new(model, &kdray::BuildOptions::default()).unwrap_err();
+        assert!(error.to_string().contains("; "), "it does not say what to do: {error}");
+        error
     };
     let short = WorldError::Length { list: "colors", found: 1, triangles: 2 };
     assert_eq!(refused(&|m| m.colors.push([[1.0; 3]; 3])), short);

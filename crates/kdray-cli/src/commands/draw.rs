@@ -165,7 +165,7 @@ fn render(
         RenderOptions { width, height, samples: args.samples, ..RenderOptions::default() };
     let progress = Progress::start("rendering", (width * height) as u64, "pixels", globals);
     let _watch = interrupt::watch();
-    let picture = kdray_render::render(world, camera, &lights, &options, &|done| {
+    let picture = kdray_render::render_with_progress(world, camera, &lights, &options, &|done| {
         progress.set_fraction(done.fraction);
         interrupt::flow()
     })?;

@@ -163,7 +163,7 @@ fn render(args: &Args, world: &World, globals: &Globals) -> Result<(Picture, Str
 
     let progress = Progress::start("rendering", pixels as u64, "pixels", globals);
     let _watch = interrupt::watch();
-    let picture = kdray_render::render(world, &camera, &lights, &options, &|done| {
+    let picture = kdray_render::render_with_progress(world, &camera, &lights, &options, &|done| {
         *last.lock().unwrap_or_else(PoisonError::into_inner) = done;
         progress.set_fraction(done.fraction);
         interrupt::flow()

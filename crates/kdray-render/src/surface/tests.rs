@@ -6,7 +6,6 @@ use crate::sampling::{Sampler, cosine_hemisphere, tangents};
 use glam::{DVec3, Vec3};
 use kdray::{BuildOptions, Hit, Ray, Side, TriangleMesh};
 use kdray_scene::Model;
-use std::ops::ControlFlow;
 
 /// A closed ball around `center`, rounded to f32 there.
 fn ball(center: f64, radius: f64) -> World {
@@ -41,7 +40,7 @@ fn ball(center: f64, radius: f64) -> World {
     }
     let vertices = vertices.into_iter().map(|p: Vec3| p.to_array()).collect();
     let model = Model { vertices, triangles, ..Model::default() };
-    World::new(model, &BuildOptions::default(), &|_| ControlFlow::Continue(())).unwrap()
+    World::new(model, &BuildOptions::default()).unwrap()
 }
 
 /// Hits of rays from outside towards points well inside, each with the ray.

@@ -4,7 +4,6 @@
 use kdray::{Aabb, BuildOptions};
 use kdray_render::{Background, Picture, RenderOptions, World, frame, render};
 use kdray_scene::{Camera, Light, Material, Model, Projection, Texture, TextureRef, Wrap};
-use std::ops::ControlFlow;
 
 /// A light that gives none, so that none is added.
 pub(crate) const DARK: Light =
@@ -110,7 +109,7 @@ pub(crate) fn textured(material: Material) -> Material {
 }
 
 pub(crate) fn world(model: Model) -> World {
-    World::new(model, &BuildOptions::default(), &|_| ControlFlow::Continue(())).unwrap()
+    World::new(model, &BuildOptions::default()).unwrap()
 }
 
 /// Parallel rays along −y, over a square of the given height around (x, z).
@@ -142,7 +141,7 @@ pub(crate) fn shoot(
     lights: &[Light],
     options: &RenderOptions,
 ) -> Picture {
-    render(world, camera, lights, options, &|_| ControlFlow::Continue(())).unwrap()
+    render(world, camera, lights, options).unwrap()
 }
 
 /// The light in the one pixel above (x, z).
