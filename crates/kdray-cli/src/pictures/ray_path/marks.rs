@@ -6,6 +6,8 @@ use super::super::{Section, legend, palette, readable};
 use super::RayPath;
 use super::path::Path;
 use super::views::visible_t;
+use kdray::{Hit, Ray};
+use svg::node::element::Element;
 
 /// The ray, t where it enters and leaves leaves, the observer, the hit.
 pub(super) fn marks_along_ray(
@@ -13,53 +15,119 @@ pub(super) fn marks_along_ray(
     section: &Section,
     path: &Path,
     panel: &Panel,
-) -> Vec<svg::node::element::Element> {
-    let shown = panel.shown();
-    let on_sheet = |t: f64| panel.place(section.place(it.ray.at(t)));
-    let Some([from, to]) = visible_t(section, it.ray, &shown) else { return Vec::new() };
-    let end = it.hit.map_or(to, |hit| hit.t.min(to));
-    let (mut marks, mut marks_text) = (Vec::new(), Vec::new());
-    marks.push(line(on_sheet(from), on_sheet(end), Stroke::new(palette::BLACK, 1.8)));
-    if end < to {
-        let beyond = Stroke::new(palette::BLACK, 1.2).dashed("4 4").faint(0.7);
-        marks.push(line(on_sheet(end), on_sheet(to), beyond));
+) -> Vec<Element> {
+    let Some(shown) = visible_t(section, it.ray, &panel.shown()) else { return Vec::new() };
+    let ts = leaf_ends(path, shown);
+    let mut marks = Marks::new(it, section, panel, shown);
+    marks.draw_ray(it.hit);
+    marks.draw_ticks(&ts);
+    if let Some(hit) = it.hit.filter(|hit| marks.shows(hit.t)) {
+        marks.draw_dot(hit.t, 5.5, palette::VERMILION);
+        marks.add_label(hit.t, [-1.2, 1.2], &format!("hit, t = {}", readable(hit.t)));
     }
+    if it.ray.interval.t_min <= 0.0 && shown[0] <= 0.0 {
+        marks.draw_dot(0.0, 5.0, palette::BLACK);
+        marks.add_label(0.0, [-1.0, 1.0], "E");
+    }
+    for &t in &ts {
+        marks.add_label(t, [1.0, -1.0], &format!("t = {}", readable(t)));
+    }
+    marks.drawn.extend(marks.labels);
+    marks.drawn
+}
+
+/// Where the ray enters and leaves the leaves it visits, as far as that is shown, each t once.
+fn leaf_ends(path: &Path, [from, to]: [f64; 2]) -> Vec<f64> {
     let mut ts: Vec<f64> = path.visited.iter().flat_map(|(_, t)| *t).collect();
     ts.retain(|t| (from..=to).contains(t));
     ts.sort_by(f64::total_cmp);
     ts.dedup_by(|a, b| (*a - *b).abs() <= 1e-6 * b.abs().max(to - from));
-    let [[x0, y0], [x1, y1]] = [on_sheet(from), on_sheet(to)];
-    let length = (x1 - x0).hypot(y1 - y0).max(1.0);
-    let normal = [(y0 - y1) / length, (x1 - x0) / length];
-    // Labels stand on the lower right of the ray, and the hit's own on the upper left.
-    let flip = if normal[1] < 0.0 { -1.0 } else { 1.0 };
-    let normal = normal.map(|n| n * flip);
-    let offset = |[x, y]: Point, by: f64| [x + normal[0] * by, y + normal[1] * by];
-    for &t in &ts {
-        let at = on_sheet(t);
-        marks.push(line(offset(at, -4.0), offset(at, 4.0), Stroke::new(palette::BLACK, 1.4)));
+    ts
+}
+
+/// Marks in the making.
+struct Marks<'a> {
+    ray: &'a Ray,
+    section: &'a Section,
+    panel: &'a Panel,
+    /// The part of the ray in the panel.
+    shown: [f64; 2],
+    /// The unit vector across the drawn ray: labels stand on its lower right, and the hit's own on
+    /// the upper left.
+    normal: Point,
+    drawn: Vec<Element>,
+    /// Drawn last, over everything.
+    labels: Vec<Element>,
+    /// Where labels are.
+    taken: Vec<[Point; 2]>,
+}
+
+impl<'a> Marks<'a> {
+    fn new(it: &'a RayPath<'_>, section: &'a Section, panel: &'a Panel, shown: [f64; 2]) -> Self {
+        let mut marks = Self {
+            ray: it.ray,
+            section,
+            panel,
+            shown,
+            normal: [0.0; 2],
+            drawn: Vec::new(),
+            labels: Vec::new(),
+            taken: Vec::new(),
+        };
+        let [[x0, y0], [x1, y1]] = shown.map(|t| marks.place(t));
+        let length = (x1 - x0).hypot(y1 - y0).max(1.0);
+        let normal = [(y0 - y1) / length, (x1 - x0) / length];
+        marks.normal = if normal[1] < 0.0 { normal.map(|n| -n) } else { normal };
+        marks
     }
-    let mut taken = Vec::new();
-    let mut add_label = |t: f64, sides: [f64; 2], text: &str| {
+
+    fn shows(&self, t: f64) -> bool {
+        self.shown[0] <= t && t <= self.shown[1]
+    }
+
+    /// Where the ray is at t, on the sheet.
+    fn place(&self, t: f64) -> Point {
+        self.panel.place(self.section.place(self.ray.at(t)))
+    }
+
+    /// A place so far across from the ray at t.
+    fn beside(&self, t: f64, by: f64) -> Point {
+        let [x, y] = self.place(t);
+        [x + self.normal[0] * by, y + self.normal[1] * by]
+    }
+
+    /// The ray: drawn through to the hit, dashed behind it.
+    fn draw_ray(&mut self, hit: Option<Hit>) {
+        let [from, to] = self.shown;
+        let end = hit.map_or(to, |hit| hit.t.min(to));
+        let stroke = Stroke::new(palette::BLACK, 1.8);
+        self.drawn.push(line(self.place(from), self.place(end), stroke));
+        if end < to {
+            let beyond = Stroke::new(palette::BLACK, 1.2).dashed("4 4").faint(0.7);
+            self.drawn.push(line(self.place(end), self.place(to), beyond));
+        }
+    }
+
+    fn draw_ticks(&mut self, ts: &[f64]) {
+        let tick = |&t: &f64| {
+            line(self.beside(t, -4.0), self.beside(t, 4.0), Stroke::new(palette::BLACK, 1.4))
+        };
+        let ticks: Vec<Element> = ts.iter().map(tick).collect();
+        self.drawn.extend(ticks);
+    }
+
+    fn draw_dot(&mut self, t: f64, radius: f64, color: &'static str) {
+        self.drawn.push(legend::dot(self.place(t), radius, color).into());
+    }
+
+    /// A label at t, on the first of the sides where there is room.
+    fn add_label(&mut self, t: f64, sides: [f64; 2], text: &str) {
         let label = sides.into_iter().find_map(|side| {
-            let at = offset(on_sheet(t), 16.0 * side);
-            placed_label(panel, at, normal[0] * side, text, &mut taken)
+            let at = self.beside(t, 16.0 * side);
+            placed_label(self.panel, at, self.normal[0] * side, text, &mut self.taken)
         });
-        marks_text.extend(label);
-    };
-    if let Some(hit) = it.hit.filter(|hit| (from..=to).contains(&hit.t)) {
-        marks.push(legend::dot(on_sheet(hit.t), 5.5, palette::VERMILION).into());
-        add_label(hit.t, [-1.2, 1.2], &format!("hit, t = {}", readable(hit.t)));
+        self.labels.extend(label);
     }
-    if it.ray.interval.t_min <= 0.0 && from <= 0.0 {
-        marks.push(legend::dot(on_sheet(0.0), 5.0, palette::BLACK).into());
-        add_label(0.0, [-1.0, 1.0], "E");
-    }
-    for &t in &ts {
-        add_label(t, [1.0, -1.0], &format!("t = {}", readable(t)));
-    }
-    marks.extend(marks_text);
-    marks
 }
 
 /// A label beside the ray, if it overlaps no other and stays in the panel.
@@ -69,7 +137,7 @@ fn placed_label(
     lean: f64,
     text: &str,
     taken: &mut Vec<[Point; 2]>,
-) -> Option<svg::node::element::Element> {
+) -> Option<Element> {
     let width = text_width(12.0, text);
     let (anchor, left) = if lean > 0.35 {
         (Anchor::Start, x)
