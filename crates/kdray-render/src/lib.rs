@@ -14,12 +14,15 @@ mod render;
 mod sampling;
 mod shade;
 mod surface;
+mod tiles;
+mod work;
 mod world;
 
 pub use camera::{CameraError, View, frame};
 pub use light::{LightError, default_lights, point_light_for};
 pub use options::{Background, PictureKind, RenderOptions};
 pub use picture::{Channel, Layer, Picture, PngDepth, Samples, WriteError};
-pub use render::{RenderError, RenderProgress, render, render_with_progress};
+pub use render::{RenderError, render, render_with_progress};
 pub use surface::HitPoint;
+pub use work::RenderProgress;
 pub use world::{World, WorldError};
