@@ -1,24 +1,16 @@
-//! Pictures as a whole: threads, golden images, files, refusals.
+//! Pictures as a whole: threads, golden images, refusals.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod support;
 
-use exr::prelude::{ReadChannels, ReadLayers};
 use kdray_render::{
     CameraError, LightError, Picture, PictureKind, PngDepth, RenderError, RenderOptions,
-    RenderProgress, WorldError, WriteError, render_with_progress,
+    WorldError, render_with_progress,
 };
 use kdray_scene::{Light, Model};
-use std::io::{self, Cursor, Write};
-use std::ops::ControlFlow;
 use std::path::Path;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use support::*;
-
-fn small(picture: PictureKind) -> RenderOptions {
-    RenderOptions { width: 64, height: 48, samples: 4, picture, ..RenderOptions::default() }
-}
 
 #[test]
 fn any_number_of_threads_gives_the_same_picture() {
@@ -53,13 +45,6 @@ fn a_layer_is_the_same_alone_and_among_all() {
 /// some channel: what other rounding of powers and sines on another machine may do.
 const SHARE: f64 = 0.01;
 const LEVELS: u8 = 4;
-
-/// The bytes of a PNG.
-fn png(picture: &Picture, depth: PngDepth) -> Vec<u8> {
-    let mut bytes = Vec::new();
-    picture.write_png(&mut bytes, depth).unwrap();
-    bytes
-}
 
 /// Compares with `tests/golden/NAME.png`; with `KDRAY_BLESS` set, writes it instead.
 fn assert_golden(picture: &Picture, name: &str) {
@@ -129,162 +114,6 @@ fn an_interior_without_lights_is_not_dark() {
     let [darkest, brightest] =
         [f32::min, f32::max].map(|pick| green.iter().copied().reduce(pick).unwrap());
     assert!(darkest > 0.01 && brightest < 1.0, "from {darkest} to {brightest}");
-}
-
-/// A render on one thread that is stopped after this many tiles.
-fn stopped_after(tiles: usize, options: &RenderOptions) -> Picture {
-    let (world, camera, lights) = still_life();
-    let calls = AtomicUsize::new(0);
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
-    let picture = pool.install(|| {
-        render_with_progress(&world, &camera, &lights, options, &|progress| {
-            assert_eq!(progress.tiles_done, calls.fetch_add(1, Ordering::Relaxed) + 1);
-            if progress.tiles_done == tiles {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
-            }
-        })
-    });
-    picture.unwrap()
-}
-
-#[test]
-fn an_interrupted_render_keeps_what_is_done() {
-    let picture = stopped_after(3, &small(PictureKind::Shaded));
-    assert!(!picture.complete);
-    let done = picture.floats("color", "A").unwrap().iter().filter(|&&a| a == 1.0).count();
-    assert_eq!(done, 3 * 16 * 16);
-}
-
-#[test]
-fn what_was_not_rendered_is_transparent_in_every_kind_of_picture() {
-    for kind in PictureKind::ALL {
-        // Less than 64 pixels across, there is no key to a heat map.
-        let options = RenderOptions { width: 48, ..small(kind) };
-        let picture = stopped_after(3, &options);
-        assert_eq!(picture.rendered.iter().filter(|&&done| done).count(), 3 * 16 * 16, "{kind:?}");
-        let shown = image::load_from_memory(&png(&picture, PngDepth::Eight)).unwrap().to_rgba8();
-        for (pixel, &rendered) in shown.pixels().zip(&picture.rendered) {
-            assert_eq!(pixel.0[3], if rendered { 255 } else { 0 }, "{kind:?}");
-        }
-    }
-    let ids = stopped_after(1, &small(PictureKind::PrimitiveId));
-    let undone = ids.rendered.iter().zip(ids.ids("primitive", "id").unwrap());
-    assert!(undone.filter(|(done, _)| !**done).all(|(_, &id)| id == u32::MAX));
-}
-
-#[test]
-fn what_was_not_rendered_does_not_count_for_a_heat_scale() {
-    let options = RenderOptions { all_layers: true, ..small(PictureKind::CostNodes) };
-    let whole = stopped_after(usize::MAX, &options);
-    let expensive = |i: usize| whole.floats("cost", "nodes").unwrap()[i] >= 3.0;
-    // As if nothing but one expensive pixel had been rendered: it has the scale's last colour.
-    let one = (0..64 * 24).find(|&i| expensive(i)).unwrap();
-    let mut rendered = vec![false; 64 * 48];
-    rendered[one] = true;
-    let picture = Picture { rendered, complete: false, ..whole };
-    let shown = image::load_from_memory(&png(&picture, PngDepth::Eight)).unwrap().to_rgba8();
-    let [r, g, b, _] = shown.get_pixel(one as u32 % 64, one as u32 / 64).0;
-    assert!(r > 100 && g < 50 && b < 50, "{r} {g} {b}");
-}
-
-#[test]
-fn a_callback_may_use_the_threads_that_render() {
-    let (sender, ended) = std::sync::mpsc::channel();
-    std::thread::spawn(move || {
-        let (world, camera, lights) = still_life();
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
-        let told = AtomicUsize::new(0);
-        // The only thread turns to another tile while it is told of the first.
-        let progress = |progress: RenderProgress| {
-            assert!(progress.tiles_done > told.swap(progress.tiles_done, Ordering::Relaxed));
-            rayon::yield_now();
-            ControlFlow::Continue(())
-        };
-        let options = small(PictureKind::Shaded);
-        let render = || render_with_progress(&world, &camera, &lights, &options, &progress);
-        let complete = pool.install(render).unwrap().complete;
-        sender.send((complete, told.into_inner())).unwrap();
-    });
-    let ended = ended.recv_timeout(std::time::Duration::from_secs(120));
-    assert_eq!(ended, Ok((true, 12)), "all tiles, and the last progress tells of all");
-}
-
-#[test]
-fn files_hold_what_was_computed() {
-    let (world, camera, lights) = still_life();
-    let options = RenderOptions { all_layers: true, ..small(PictureKind::Shaded) };
-    let picture = shoot(&world, &camera, &lights, &options);
-    let mut file = Vec::new();
-    picture.write_exr(&mut file).unwrap();
-    let read = exr::prelude::read().no_deep_data().largest_resolution_level().all_channels();
-    let read = read.all_layers().all_attributes().from_buffered(Cursor::new(file)).unwrap();
-    let channels = &read.layer_data[0].channel_data.list;
-    let names: Vec<String> = channels.iter().map(|c| c.name.to_string()).collect();
-    let expected = [
-        "A",
-        "B",
-        "G",
-        "R",
-        "cost.nodes",
-        "cost.primitives",
-        "depth.Z",
-        "normal.X",
-        "normal.Y",
-        "normal.Z",
-        "occlusion.V",
-        "primitive.id",
-    ];
-    assert_eq!(names, expected);
-    let values = |name: &str| &channels.iter().find(|c| c.name.eq(name)).unwrap().sample_data;
-    let depth: Vec<f32> = values("depth.Z").values_as_f32().collect();
-    assert_eq!(depth, picture.floats("depth", "Z").unwrap());
-    let exr::prelude::FlatSamples::U32(ids) = values("primitive.id") else { panic!("not whole") };
-    assert_eq!(ids, picture.ids("primitive", "id").unwrap());
-
-    let image = image::load_from_memory(&png(&picture, PngDepth::Sixteen)).unwrap();
-    assert_eq!((image.width(), image.height()), (64, 48));
-    assert_eq!(image.color(), image::ColorType::Rgba16);
-}
-
-/// A place with room for so many bytes.
-struct Full(usize);
-
-impl Write for Full {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.0 = self.0.checked_sub(bytes.len()).ok_or(io::ErrorKind::StorageFull)?;
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        Ok(())
-    }
-}
-
-#[test]
-fn a_full_disk_is_an_error_that_keeps_its_cause() {
-    let (world, camera, lights) = still_life();
-    let picture = shoot(&world, &camera, &lights, &small(PictureKind::Depth));
-    for room in [0, 50] {
-        for error in [
-            picture.write_png(Full(room), PngDepth::Eight).unwrap_err(),
-            picture.write_exr(Full(room)).unwrap_err(),
-        ] {
-            let WriteError::Io(cause) = &error else { panic!("{error:?}") };
-            assert_eq!(cause.kind(), io::ErrorKind::StorageFull);
-            assert!(!error.to_string().contains(&cause.to_string()), "told once: {error}");
-        }
-    }
-}
-
-#[test]
-fn a_picture_that_no_png_can_hold_is_refused() {
-    let (world, camera, lights) = still_life();
-    let picture = shoot(&world, &camera, &lights, &plain(1, 1, 1));
-    let picture = Picture { width: 1 << 32, height: 0, ..picture };
-    let refused = picture.write_png(Vec::new(), PngDepth::Eight);
-    assert!(matches!(refused, Err(WriteError::TooLarge { height: 0, .. })), "{refused:?}");
 }
 
 #[test]

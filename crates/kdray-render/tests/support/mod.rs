@@ -2,7 +2,9 @@
 #![allow(dead_code, reason = "each test binary uses a part")]
 
 use kdray::{Aabb, BuildOptions};
-use kdray_render::{Background, Picture, RenderOptions, World, frame, render};
+use kdray_render::{
+    Background, Picture, PictureKind, PngDepth, RenderOptions, World, frame, render,
+};
 use kdray_scene::{Camera, Light, Material, Model, Projection, Texture, TextureRef, Wrap};
 
 /// A light that gives none, so that none is added.
@@ -142,6 +144,18 @@ pub(crate) fn shoot(
     options: &RenderOptions,
 ) -> Picture {
     render(world, camera, lights, options).unwrap()
+}
+
+/// A small picture of that kind.
+pub(crate) fn small(picture: PictureKind) -> RenderOptions {
+    RenderOptions { width: 64, height: 48, samples: 4, picture, ..RenderOptions::default() }
+}
+
+/// The bytes of a PNG.
+pub(crate) fn png(picture: &Picture, depth: PngDepth) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    picture.write_png(&mut bytes, depth).unwrap();
+    bytes
 }
 
 /// The light in the one pixel above (x, z).

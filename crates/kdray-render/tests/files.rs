@@ -1,0 +1,86 @@
+//! Pictures as PNG and OpenEXR.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod support;
+
+use exr::prelude::{ReadChannels, ReadLayers};
+use kdray_render::{Picture, PictureKind, PngDepth, RenderOptions, WriteError};
+use std::io::{self, Cursor, Write};
+use support::*;
+
+#[test]
+fn files_hold_what_was_computed() {
+    let (world, camera, lights) = still_life();
+    let options = RenderOptions { all_layers: true, ..small(PictureKind::Shaded) };
+    let picture = shoot(&world, &camera, &lights, &options);
+    let mut file = Vec::new();
+    picture.write_exr(&mut file).unwrap();
+    let read = exr::prelude::read().no_deep_data().largest_resolution_level().all_channels();
+    let read = read.all_layers().all_attributes().from_buffered(Cursor::new(file)).unwrap();
+    let channels = &read.layer_data[0].channel_data.list;
+    let names: Vec<String> = channels.iter().map(|c| c.name.to_string()).collect();
+    let expected = [
+        "A",
+        "B",
+        "G",
+        "R",
+        "cost.nodes",
+        "cost.primitives",
+        "depth.Z",
+        "normal.X",
+        "normal.Y",
+        "normal.Z",
+        "occlusion.V",
+        "primitive.id",
+    ];
+    assert_eq!(names, expected);
+    let values = |name: &str| &channels.iter().find(|c| c.name.eq(name)).unwrap().sample_data;
+    let depth: Vec<f32> = values("depth.Z").values_as_f32().collect();
+    assert_eq!(depth, picture.floats("depth", "Z").unwrap());
+    let exr::prelude::FlatSamples::U32(ids) = values("primitive.id") else { panic!("not whole") };
+    assert_eq!(ids, picture.ids("primitive", "id").unwrap());
+
+    let image = image::load_from_memory(&png(&picture, PngDepth::Sixteen)).unwrap();
+    assert_eq!((image.width(), image.height()), (64, 48));
+    assert_eq!(image.color(), image::ColorType::Rgba16);
+}
+
+/// A place with room for so many bytes.
+struct Full(usize);
+
+impl Write for Full {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.0 = self.0.checked_sub(bytes.len()).ok_or(io::ErrorKind::StorageFull)?;
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+#[test]
+fn a_full_disk_is_an_error_that_keeps_its_cause() {
+    let (world, camera, lights) = still_life();
+    let picture = shoot(&world, &camera, &lights, &small(PictureKind::Depth));
+    for room in [0, 50] {
+        for error in [
+            picture.write_png(Full(room), PngDepth::Eight).unwrap_err(),
+            picture.write_exr(Full(room)).unwrap_err(),
+        ] {
+            let WriteError::Io(cause) = &error else { panic!("{error:?}") };
+            assert_eq!(cause.kind(), io::ErrorKind::StorageFull);
+            assert!(!error.to_string().contains(&cause.to_string()), "told once: {error}");
+        }
+    }
+}
+
+#[test]
+fn a_picture_that_no_png_can_hold_is_refused() {
+    let (world, camera, lights) = still_life();
+    let picture = shoot(&world, &camera, &lights, &plain(1, 1, 1));
+    let picture = Picture { width: 1 << 32, height: 0, ..picture };
+    let refused = picture.write_png(Vec::new(), PngDepth::Eight);
+    assert!(matches!(refused, Err(WriteError::TooLarge { height: 0, .. })), "{refused:?}");
+}
