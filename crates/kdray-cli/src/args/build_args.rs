@@ -1,14 +1,14 @@
 //! How the tree is built.
 
-use clap::ValueEnum;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use kdray::{BuildOptions, Strategy, tree::MAX_DEPTH};
 
 /// How the tree is built.
 #[derive(Clone, Debug, clap::Args)]
 pub(crate) struct BuildArgs {
     /// How the splitting plane is chosen
-    #[arg(long, value_name = "STRATEGY", default_value = "sah")]
-    pub(crate) split: Split,
+    #[arg(long, value_name = "STRATEGY", default_value = "sah", value_parser = strategies())]
+    pub(crate) split: Strategy,
     #[command(flatten)]
     pub(crate) limits: LimitArgs,
 }
@@ -24,45 +24,10 @@ pub(crate) struct LimitArgs {
     pub(crate) max_depth: Option<usize>,
 }
 
-/// The strategies by their names on the command line.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Split {
-    /// The plane of least cost by the surface area heuristic
-    Sah,
-    /// The middle of the box's longest side
-    Middle,
-    /// As many triangles left as right
-    Median,
-    /// The axes in turn, each cut in the middle
-    RoundRobin,
-}
-
-impl Split {
-    /// The library's name for it.
-    pub(crate) fn strategy(self) -> Strategy {
-        match self {
-            Self::Sah => Strategy::Sah,
-            Self::Middle => Strategy::Middle,
-            Self::Median => Strategy::Median,
-            Self::RoundRobin => Strategy::RoundRobin,
-        }
-    }
-
-    /// Its name on the command line.
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Self::Sah => "sah",
-            Self::Middle => "middle",
-            Self::Median => "median",
-            Self::RoundRobin => "round-robin",
-        }
-    }
-}
-
 impl BuildArgs {
     /// What the library is asked for.
     pub(crate) fn options(&self) -> BuildOptions {
-        self.limits.options(self.split.strategy())
+        self.limits.options(self.split)
     }
 }
 
@@ -73,6 +38,18 @@ impl LimitArgs {
         let leaf_size = self.leaf_size.unwrap_or(default.leaf_size);
         BuildOptions { leaf_size, max_depth: self.max_depth, ..default }
     }
+}
+
+/// The strategies by the library's names, and what the help says of each.
+fn strategies() -> impl TypedValueParser<Value = Strategy> {
+    let help = |strategy| match strategy {
+        Strategy::Middle => "The middle of the box's longest side",
+        Strategy::Median => "As many triangles left as right",
+        Strategy::RoundRobin => "The axes in turn, each cut in the middle",
+        Strategy::Sah => "The plane of least cost by the surface area heuristic",
+    };
+    let value = |strategy: Strategy| PossibleValue::new(strategy.name()).help(help(strategy));
+    PossibleValuesParser::new(Strategy::ALL.map(value)).try_map(|name| name.parse())
 }
 
 fn depth(text: &str) -> Result<usize, String> {

@@ -250,7 +250,7 @@ mod tests {
             [[x, y, z], [x + 1.0, y, z], [x, y + 1.0, z + 0.5]]
         });
         let mesh = TriangleMesh::from_soup(soup).unwrap();
-        for strategy in [Strategy::Middle, Strategy::Median, Strategy::RoundRobin, Strategy::Sah] {
+        for strategy in Strategy::ALL {
             let options = BuildOptions { strategy, ..BuildOptions::default() };
             let tree = KdTree::build(&mesh, &options).unwrap();
             let skew = Section::through(&Ray::new([0.0, 0.0, 0.0], [0.7, 1.0, -0.9]));

@@ -4,7 +4,6 @@ use super::dielectric::{Boundary, attenuation};
 use super::whitted::Tracer;
 use crate::surface::{Surface, opacity};
 use glam::{DVec3, Vec3};
-use kdray::traverse::any_hit;
 use kdray::{Hit, Ray};
 use kdray_scene::{AlphaMode, Material};
 
@@ -18,8 +17,7 @@ impl Tracer<'_> {
     /// if it were not bent, less what they mirror and absorb.
     pub(crate) fn transmittance(&self, ray: &Ray) -> Vec3 {
         self.count_ray();
-        let scene = self.world.scene();
-        match any_hit(scene.tree(), scene.primitives(), ray, &mut ()) {
+        match self.world.scene().occluder(ray) {
             None => Vec3::ONE,
             Some(hit) if is_opaque(self.world.material(hit.primitive_id)) => Vec3::ZERO,
             Some(_) => self.filtered(ray),

@@ -2,15 +2,12 @@
 
 use super::Args;
 use super::measure::Figures;
-use crate::{args::Split, cli::Globals, error::CliError, interrupt, progress};
-use kdray::{Aabb, Scene, TreeStats, TriangleMesh};
+use crate::{cli::Globals, error::CliError, interrupt, progress};
+use kdray::{Aabb, Scene, Strategy, TreeStats, TriangleMesh};
 use std::time::{Duration, Instant};
 
 /// Builds that took less than this are repeated, so that their time can be trusted.
 const SHORT_BUILD: Duration = Duration::from_millis(500);
-
-/// The strategies in the order of the lecture.
-const STRATEGIES: [Split; 4] = [Split::Middle, Split::Median, Split::RoundRobin, Split::Sah];
 
 /// One that answers rays.
 pub(super) struct Contender<'a> {
@@ -54,17 +51,17 @@ pub(super) fn build_all<'a>(
     globals: &Globals,
 ) -> Result<Contenders<'a>, CliError> {
     let list: Result<Vec<_>, CliError> =
-        STRATEGIES.iter().map(|&split| build(mesh, split, args, globals)).collect();
+        Strategy::ALL.into_iter().map(|it| build(mesh, it, args, globals)).collect();
     Ok(Contenders { list: list? })
 }
 
 fn build<'a>(
     mesh: &TriangleMesh,
-    split: Split,
+    strategy: Strategy,
     args: &Args,
     globals: &Globals,
 ) -> Result<Contender<'a>, CliError> {
-    let options = args.limits.options(split.strategy());
+    let options = args.limits.options(strategy);
     let _watch = interrupt::watch();
     let mut seconds = Vec::new();
     let (mut scene, mut took);
@@ -78,11 +75,11 @@ fn build<'a>(
             break;
         }
     }
-    progress::say(globals, &format!("built {} in {took:.2?}", split.name()));
+    progress::say(globals, &format!("built {strategy} in {took:.2?}"));
     let stats = scene.tree().stats(mesh.triangles().len(), &options.cost);
     let build_seconds = super::measure::median(&mut seconds);
     let kind = Kind::Tree { scene: Box::new(scene), stats, build_seconds };
-    Ok(Contender { name: split.name(), kind, figures: Vec::new() })
+    Ok(Contender { name: strategy.name(), kind, figures: Vec::new() })
 }
 
 impl<'a> Contenders<'a> {
