@@ -38,15 +38,15 @@ impl Subject<2> for Segments {
 }
 
 impl<const K: usize> Subject<K> for Balls<K> {
-    /// The points of the ball that touch its box.
+    /// The points of the ball that touch the tightest box around it.
     fn corners(&self, id: u32) -> Vec<[f64; K]> {
-        let bounds = kdray::primitives::Primitives::bounds(self, id);
-        let pole = |axis: usize, end: f32| {
-            let mut pole = bounds.center();
-            pole[axis] = f64::from(end);
+        let (center, radius) = self.centers_and_radii()[id as usize];
+        let pole = |axis: usize, radius: f32| {
+            let mut pole = center.map(f64::from);
+            pole[axis] += f64::from(radius);
             pole
         };
-        (0..K).flat_map(|k| [pole(k, bounds.min[k]), pole(k, bounds.max[k])]).collect()
+        (0..K).flat_map(|k| [pole(k, -radius), pole(k, radius)]).collect()
     }
 
     fn exact_hits(&self, _ray: &Ray<K>, _rule: HitRule) -> Option<Vec<ExactHit>> {

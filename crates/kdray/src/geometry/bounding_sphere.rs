@@ -45,7 +45,7 @@ impl<const K: usize> BoundingVolume<K> for BoundingSphere<K> {
         if self.radius < 0.0 {
             return None;
         }
-        let [enter, leave] = chord(ray, &self.center, radius)?;
+        let [enter, leave] = chord(ray, &self.center, radius)?.t;
         // NaN bounds nothing: the larger and the smaller of it and a number are the number.
         let Interval { t_min, t_max } = ray.interval;
         let t_min = t_below(t_min).max(t_below(enter));

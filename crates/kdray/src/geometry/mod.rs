@@ -13,7 +13,7 @@ mod slack;
 pub use aabb::Aabb;
 pub use bounding_sphere::BoundingSphere;
 pub use bounding_volume::BoundingVolume;
-pub(crate) use chord::chord;
+pub(crate) use chord::{Chord, chord};
 pub use clip::clipped_bounds;
 pub use interval::Interval;
 pub use plane::Plane;

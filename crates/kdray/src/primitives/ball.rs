@@ -1,7 +1,7 @@
 //! Circles and spheres.
 
 use super::{Hit, HitRule, Intersect, Primitives, Side};
-use crate::geometry::{Aabb, Ray, chord};
+use crate::geometry::{Aabb, Chord, Ray, chord};
 use thiserror::Error;
 
 /// Circles (K = 2) or spheres (K = 3): the set of points at a distance from a centre. A ray that
@@ -36,6 +36,11 @@ impl<const K: usize> Balls<K> {
             None => Ok(Self { balls }),
         }
     }
+
+    /// The centre and the radius of each ball.
+    pub fn centers_and_radii(&self) -> &[([f32; K], f32)] {
+        &self.balls
+    }
 }
 
 impl<const K: usize> Primitives<K> for Balls<K> {
@@ -58,12 +63,8 @@ impl<const K: usize> Primitives<K> for Balls<K> {
 impl<const K: usize> Intersect<K> for Balls<K> {
     fn intersect(&self, id: u32, ray: &Ray<K>, _rule: HitRule, report: &mut impl FnMut(Hit)) {
         let (center, radius) = self.balls[id as usize];
-        let Some([enter, leave]) = chord(ray, &center.map(f64::from), f64::from(radius)) else {
-            return;
-        };
-        if enter == leave {
-            return;
-        }
+        let chord = chord(ray, &center.map(f64::from), f64::from(radius));
+        let Some(Chord { t: [enter, leave], is_tangent: false }) = chord else { return };
         for (t, side) in [(enter, Side::Front), (leave, Side::Back)] {
             if t.is_finite() && ray.interval.contains(t) {
                 report(Hit { t, primitive_id: id, u: 0.0, v: 0.0, side });
@@ -83,6 +84,17 @@ mod tests {
         let mut hits = Vec::new();
         balls.intersect(0, &ray, HitRule::Crossing, &mut |hit| hits.push((hit.t, hit.side)));
         assert_eq!(hits, [(1.5, Side::Front), (3.5, Side::Back)]);
+    }
+
+    #[test]
+    fn a_ball_far_away_is_met_twice_though_both_t_round_to_one() {
+        for (center, radius, origin) in [([0.0, 0.0], 1.0, -1e17), ([1.0, 1.0], 5e-13, -1e4)] {
+            let balls = Balls::new(vec![(center, radius)]).unwrap();
+            let ray = Ray::new([origin, f64::from(center[1])], [1.0, 0.0]);
+            let mut sides = Vec::new();
+            balls.intersect(0, &ray, HitRule::Crossing, &mut |hit| sides.push(hit.side));
+            assert_eq!(sides, [Side::Front, Side::Back], "from {origin}");
+        }
     }
 
     #[test]

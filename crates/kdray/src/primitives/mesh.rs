@@ -49,7 +49,8 @@ impl TriangleMesh {
     /// A mesh of `triangles` over `vertices`. Vertices that no triangle uses may be anything.
     ///
     /// # Errors
-    /// The first triangle that has an index out of range or a vertex that is not finite.
+    /// The first triangle that has an index out of range or a vertex that is not finite; 2^30
+    /// triangles or more.
     pub fn new(vertices: Vec<[f32; 3]>, triangles: Vec<[u32; 3]>) -> Result<Self, MeshError> {
         if triangles.len() >= Self::MAX_TRIANGLES {
             return Err(MeshError::TooManyTriangles(triangles.len()));
@@ -62,6 +63,9 @@ impl TriangleMesh {
 
     /// Like [`new`](Self::new), but drops the triangles it would refuse, and returns the indices
     /// they had. The others keep their order; their ids close the gaps.
+    ///
+    /// # Errors
+    /// Only that 2^30 triangles or more are left.
     pub fn new_dropping_bad(
         vertices: Vec<[f32; 3]>,
         mut triangles: Vec<[u32; 3]>,

@@ -17,7 +17,7 @@ use crate::geometry::{Aabb, Ray};
 /// All that the build and the tree know of primitives in K dimensions: how many there are, and
 /// where. A primitive's id is its index, from zero.
 pub trait Primitives<const K: usize>: Sync {
-    /// How many primitives there are; a build refuses 2^30 and more.
+    /// How many primitives there are: fewer than 2^32, of which a build refuses 2^30 and more.
     fn count(&self) -> usize;
 
     /// The primitive's bounding box, in finite coordinates.
