@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 const MODULES: [&str; 7] =
     ["geometry", "exact", "primitives", "tree", "build", "traverse", "query"];
 
-/// What the library `kdray` may need: containers, casts, vectors, threads, error messages. Nothing
+/// What the library `kdray` may need: containers, vectors, threads, error messages. Nothing
 /// that reads, writes or prints.
 const LIBRARY_MAY_USE: [&str; 4] = ["arrayvec", "glam", "rayon", "thiserror"];
 

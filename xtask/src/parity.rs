@@ -6,7 +6,7 @@ use clap::Args;
 /// What is counted; see `tests/src/bin/parity.rs`.
 #[derive(Args)]
 pub(crate) struct Options {
-    /// Aim at every vertex and edge; otherwise at every hundredth.
+    /// Trace all rays; otherwise one in 101.
     #[arg(long)]
     full: bool,
     /// Only these scenes, separated by commas.

@@ -11,8 +11,8 @@ use std::cmp::Ordering;
 /// The documented relative error of t is at most 2 to the power of minus this.
 const T_BITS: usize = 39;
 
-/// The error that u and v may have.
-const UV_ERROR: f64 = 1e-9;
+/// The documented error of u and v.
+const UV_ERROR: f64 = 1.0 / (1 << 30) as f64;
 
 /// Compares all hits, in order, with the exact ones on the line of the ray.
 ///
