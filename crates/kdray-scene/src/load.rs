@@ -12,7 +12,9 @@ use std::path::Path;
 pub struct LoadOptions {
     /// The format; if none, the file's name tells it, or else its content.
     pub format: Option<Format>,
-    /// How many bytes a file may have after decompression; 8 GiB by default.
+    /// How many bytes a file may have after decompression, and each file that it refers to; 8 GiB
+    /// by default. All buffers of a glTF file together may have as many, those in the file and
+    /// those beside it.
     pub max_bytes: u64,
     /// Drop triangles that use vertices that are not there or not finite, with a warning that
     /// counts them, instead of refusing the file.

@@ -14,8 +14,8 @@ pub(crate) struct SceneArgs {
     /// The format, whatever the file's name and content tell; without it they decide
     #[arg(long, value_name = "FORMAT")]
     pub(crate) format: Option<SceneFormat>,
-    /// Refuse a file that is longer than this after decompression; without it 8 GiB, and 1 GiB
-    /// from standard input
+    /// Refuse a file that is longer than this after decompression, or glTF buffers that together
+    /// are; without it 8 GiB, and 1 GiB from standard input
     #[arg(long, value_name = "BYTES")]
     pub(crate) max_bytes: Option<u64>,
     /// Drop triangles with indices out of range or vertices that are not finite, and count them;
