@@ -10,10 +10,11 @@ use std::collections::HashMap;
 use std::io::{self, ErrorKind};
 use std::path::PathBuf;
 
-/// Textures by their files, so that each is read once; none for one that failed.
+/// Textures by their files and what lies beyond their edges: each file is read once for either,
+/// clamped or repeated. None for one that failed.
 pub(super) struct Maps<'a> {
     textures: TextureDecoder,
-    /// By the path, or by the name of a file that is not there.
+    /// By the path, or by the name of a file that is not there, and whether the map clamps.
     known: HashMap<(PathBuf, bool), Option<usize>>,
     request: &'a Request<'a>,
 }
