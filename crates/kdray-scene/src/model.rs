@@ -28,5 +28,6 @@ pub struct Model {
     /// The cameras, the preferred one first.
     pub cameras: Vec<Camera>,
     /// What was passed over or mended while reading, a sentence each, for the user to see.
+    /// Of those of a kind, such as missing textures, a hundred; one more counts the rest.
     pub warnings: Vec<String>,
 }

@@ -1,5 +1,6 @@
 //! Collects vertices and polygons into a model.
 
+use super::repeated::Repeated;
 use super::triangulate::{MAX_CONCAVE_CORNERS, triangulate};
 use crate::formats::Request;
 use crate::{LoadError, Model, Place};
@@ -30,6 +31,7 @@ pub(crate) struct MeshBuilder<'a> {
     dropped: u64,
     first_dropped: String,
     without_area: u64,
+    repeated: Repeated,
 }
 
 /// Stands for "no material" until the end.
@@ -55,12 +57,21 @@ impl<'a> MeshBuilder<'a> {
             dropped: 0,
             first_dropped: String::new(),
             without_area: 0,
+            repeated: Repeated::default(),
         }
     }
 
-    /// Adds what the user should know.
+    /// Adds what the user should know, of which there are few in any file.
     pub(crate) fn warn(&mut self, warning: impl Into<String>) {
         self.model.warnings.push(format!("{}: {}", self.request.file, warning.into()));
+    }
+
+    /// Adds what the user should know, of which a file can have many. After a hundred of a kind the
+    /// rest is counted: "9 more textures left out".
+    pub(crate) fn warn_often(&mut self, kind: &'static str, warning: String) {
+        if self.repeated.count(kind) {
+            self.warn(warning);
+        }
     }
 
     /// Adds a vertex and tells its index, or refuses one more than indices can count.
@@ -166,6 +177,9 @@ impl<'a> MeshBuilder<'a> {
     /// The model, with lists that are empty or complete, and warnings about what was left out.
     pub(crate) fn finish(mut self) -> Model {
         self.fill_lists();
+        for rest in self.repeated.rest() {
+            self.warn(rest);
+        }
         if self.dropped > 0 {
             let (count, first) = (self.dropped, std::mem::take(&mut self.first_dropped));
             self.warn(format!("bad polygons dropped: {count}, the first at {first}"));

@@ -1,6 +1,7 @@
 //! From polygons to the triangles of a model.
 
 mod builder;
+mod repeated;
 mod triangulate;
 mod weld;
 

@@ -33,7 +33,8 @@ pub(super) fn add_camera(document: Document<'_>, node: &PlacedNode, builder: &mu
     let name = camera.name.clone().or(json.name.clone()).unwrap_or_default();
     let pose = pose(node).filter(|[_, forward, up]| forward.cross(*up).length() > 1e-9);
     let (Some(projection), Some([eye, forward, up])) = (projection, pose) else {
-        builder.warn(format!("nodes[{}]: the camera {name:?} has no view; left out", node.index));
+        let warning = format!("nodes[{}]: the camera {name:?} has no view; left out", node.index);
+        builder.warn_often("cameras without a view left out", warning);
         return;
     };
     let look_at = (eye + forward).to_array();
@@ -56,7 +57,8 @@ pub(super) fn add_light(document: Document<'_>, node: &PlacedNode, builder: &mut
     let Checked::Valid(kind) = light.type_ else { return };
     let pose = pose(node).filter(|_| power.iter().all(|channel| channel.is_finite()));
     let Some([position, forward, _]) = pose else {
-        builder.warn(format!("nodes[{}]: a light without direction left out", node.index));
+        let warning = format!("nodes[{}]: a light without direction left out", node.index);
+        builder.warn_often("lights without direction left out", warning);
         return;
     };
     let (position, direction) = (position.to_array(), forward.to_array());

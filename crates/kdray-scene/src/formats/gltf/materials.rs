@@ -66,10 +66,11 @@ impl<'a> Materials<'a> {
                 let info = info?;
                 if uv_set_of(info) != uv_set {
                     let set = uv_set_of(info);
-                    builder.warn(format!(
+                    let warning = format!(
                         "materials[{index}]: a texture on the second set of coordinates in use, \
                          TEXCOORD_{set}, left out"
-                    ));
+                    );
+                    builder.warn_often("textures on a second set of coordinates left out", warning);
                     return None;
                 }
                 let texture = self.textures.index(info.index.value(), encoding, builder)?;

@@ -52,7 +52,8 @@ impl<'a> Textures<'a> {
         }
         let loaded = self.load(texture, encoding, builder);
         if let Err(reason) = &loaded {
-            builder.warn(format!("textures[{texture}] left out: {reason}"));
+            let warning = format!("textures[{texture}] left out: {reason}");
+            builder.warn_often("textures left out", warning);
         }
         let index = loaded.ok();
         self.known.insert((texture, encoding), index);

@@ -66,7 +66,8 @@ impl<'a> Maps<'a> {
                 Some(builder.model.textures.len() - 1)
             }
             Err(reason) => {
-                builder.warn(format!("texture {:?} left out: {reason}", map.file));
+                let warning = format!("texture {:?} left out: {reason}", map.file);
+                builder.warn_often("textures left out", warning);
                 None
             }
         }

@@ -79,7 +79,8 @@ fn set_opacity(material: &mut Material, statements: &Statements, builder: &mut M
     let opacity = match (statements.dissolve, from_tr) {
         (None, Some(opacity)) if opacity <= 0.0 => {
             let name = &material.name;
-            builder.warn(format!("material {name:?}: `Tr 1` without `d` taken as opaque"));
+            let warning = format!("material {name:?}: `Tr 1` without `d` taken as opaque");
+            builder.warn_often("materials with `Tr 1` without `d` taken as opaque", warning);
             1.0
         }
         (dissolve, from_tr) => dissolve.or(from_tr).unwrap_or(1.0).clamp(0.0, 1.0),
