@@ -144,6 +144,31 @@ fn a_material_library_is_read_once() {
     assert_eq!(left_out.count(), 1, "{:?}", model.warnings);
 }
 
+/// The warnings of a file that names these material libraries, which are not there.
+fn warnings_of_libraries(names: &str) -> Vec<String> {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("a.obj"), format!("{names}\nv 0 0 0\nf 1 1 1\n")).unwrap();
+    load(&folder.path().join("a.obj"), &LoadOptions::default()).unwrap().warnings
+}
+
+#[test]
+fn a_missing_material_library_is_missed_once() {
+    let names = format!("mtllib{}{}", " a".repeat(100_000), "\nmtllib a\nmtllib a b".repeat(1000));
+    let warnings = warnings_of_libraries(&names);
+    assert_eq!(warnings.len(), 2, "{:?}", &warnings[..3]);
+    assert!(warnings[0].contains("line 1: material library left out: a: "), "{warnings:?}");
+    assert!(warnings[1].contains("line 3: material library left out: b: "), "{warnings:?}");
+}
+
+#[test]
+fn many_missing_material_libraries_are_counted() {
+    let names = (0..5000).map(|i| format!(" {i}")).collect::<String>();
+    let warnings = warnings_of_libraries(&format!("mtllib{names}"));
+    assert_eq!(warnings.len(), 101);
+    assert!(warnings[99].contains("left out: 99: "), "{}", warnings[99]);
+    assert!(warnings[100].ends_with(": 4900 more material libraries left out"), "{warnings:?}");
+}
+
 fn png() -> Vec<u8> {
     let mut file = std::io::Cursor::new(Vec::new());
     image::RgbImage::new(5, 3).write_to(&mut file, image::ImageFormat::Png).unwrap();

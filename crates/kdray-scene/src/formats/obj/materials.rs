@@ -1,15 +1,12 @@
 //! The materials that faces name, from their libraries.
 
 use super::Request;
+use super::libraries::Libraries;
 use super::maps::Maps;
 use super::material::material;
-use super::mtl::{self, Statements};
-use crate::input::{Limited, Scanner, peek, utf8};
+use crate::Material;
 use crate::mesh::MeshBuilder;
-use crate::{LoadError, Material};
-use std::collections::{BTreeSet, HashMap, HashSet};
-use std::fs::File;
-use std::path::{Path, PathBuf};
+use std::collections::{BTreeSet, HashMap};
 
 /// The materials that faces use, in the order of their first use.
 #[derive(Default)]
@@ -36,9 +33,9 @@ impl Materials {
     /// becomes a warning.
     pub(super) fn finish(self, builder: &mut MeshBuilder<'_>, request: &Request<'_>) {
         let mut defined = HashMap::new();
-        let mut known = HashSet::new();
+        let mut libraries = Libraries::new(request);
         for (line, names) in &self.libraries {
-            for statements in read_libraries(*line, names, &mut known, builder, request) {
+            for statements in libraries.read(*line, names, builder) {
                 // Of several definitions the first counts.
                 defined.entry(statements.name.clone()).or_insert(statements);
             }
@@ -52,7 +49,8 @@ impl Materials {
                     material(statements, &mut maps, builder)
                 }
                 None => {
-                    builder.warn(format!("the material {name:?} is not defined"));
+                    let warning = format!("the material {name:?} is not defined");
+                    builder.warn_often("materials not defined", warning);
                     Material { name, ..Material::default() }
                 }
             };
@@ -63,50 +61,4 @@ impl Materials {
             builder.warn(format!("maps of materials passed over: {}", list.join(", ")));
         }
     }
-}
-
-/// The materials of the library, or of several libraries with spaces between their names; none of
-/// those that are known from statements before.
-fn read_libraries(
-    line: u64,
-    names: &str,
-    known: &mut HashSet<PathBuf>,
-    builder: &mut MeshBuilder<'_>,
-    request: &Request<'_>,
-) -> Vec<Statements> {
-    let mut materials = Vec::new();
-    let is_one = request.siblings.find(names).is_ok();
-    let several: Vec<&str> = if is_one { vec![names] } else { names.split_whitespace().collect() };
-    for name in several {
-        let read = match request.siblings.find(name) {
-            Ok(path) if known.insert(path.clone()) => {
-                read_library(name, &path, request, &mut materials)
-            }
-            Ok(_) => Ok(()),
-            Err(error) => Err(LoadError::Io { file: name.to_owned(), error }),
-        };
-        if let Err(error) = read {
-            builder.warn(format!("line {line}: material library left out: {error}"));
-        }
-    }
-    materials
-}
-
-fn read_library(
-    name: &str,
-    path: &Path,
-    request: &Request<'_>,
-    materials: &mut Vec<Statements>,
-) -> Result<(), LoadError> {
-    let library = Request { file: name, ..*request };
-    let fail = |error| library.read_error(error);
-    let file = Limited::new(File::open(path).map_err(fail)?, request.options.max_bytes);
-    let (start, bytes) = peek(Box::new(file), 4).map_err(fail)?;
-    let bytes = utf8(bytes, &start).map_err(fail)?;
-    let mut scanner = Scanner::new(bytes, &library);
-    let mut line = Vec::new();
-    while scanner.line(&mut line)? {
-        mtl::add_line(&String::from_utf8_lossy(&line), materials);
-    }
-    Ok(())
 }

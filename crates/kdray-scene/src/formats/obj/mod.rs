@@ -4,6 +4,7 @@
 //! of its own or keeps lists a group, knows no places for its messages, and stops at UTF-16.
 
 mod faces;
+mod libraries;
 mod maps;
 mod material;
 mod materials;
