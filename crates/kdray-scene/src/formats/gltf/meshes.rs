@@ -29,7 +29,7 @@ pub(super) struct Instance {
 /// many parts if there are more of them.
 fn size_of(parts: &[Part]) -> usize {
     let vertices: HashMap<_, usize> =
-        parts.iter().map(|part| (part.sources, part.positions.len())).collect();
+        parts.iter().map(|part| (part.sources, part.vertices.len())).collect();
     let triangles: usize = parts.iter().map(|part| part.triangles.len()).sum();
     triangles.max(vertices.values().sum()).max(parts.len())
 }
@@ -95,8 +95,8 @@ fn add_vertices(
     builder: &mut MeshBuilder<'_>,
 ) -> Result<(), LoadError> {
     let placements = Placements::new(part, instance);
-    for (vertex, p) in part.positions.iter().enumerate() {
-        let placement = placements.of(vertex);
+    for vertex in part.vertices.iter().map(|&vertex| vertex as usize) {
+        let (p, placement) = (part.positions[vertex], placements.of(vertex));
         let position = placement.position.transform_point3(DVec3::new(p[0], p[1], p[2]));
         builder.vertex(position.as_vec3().into(), || Place::Json(part.path.clone()))?;
     }
@@ -111,31 +111,38 @@ fn add_triangles(
 ) -> Result<(), LoadError> {
     let placements = Placements::new(part, instance);
     builder.material = part.material;
-    // So that messages number vertices as the file does.
-    builder.first_index = -(base as i64);
     let corner = |index: u32| {
-        let i = index as usize;
+        let i = part.vertices[index as usize] as usize;
         let normal = part.normals.get(i).map(|n| {
             let normal = placements.of(i).normal * DVec3::new(n[0], n[1], n[2]);
             normal.normalize_or_zero().as_vec3().into()
         });
         let color = part.colors.get(i).map(|c| [c[0], c[1], c[2]].map(|x| x as f32));
         let uv = part.uvs.get(i).map(|uv| [uv[0], uv[1]].map(|x| x as f32));
-        Corner { vertex: (base + i) as i64, normal, uv, color }
+        Corner { vertex: (base + index as usize) as i64, normal, uv, color }
     };
     for (number, triangle) in part.triangles.iter().enumerate() {
         let place = || Place::Json(format!("{} triangle {number}", part.path));
-        if let Some(bad) = triangle.iter().find(|&&i| i as usize >= part.positions.len()) {
-            let count = part.positions.len();
-            let reason = format!("vertex index {bad} is out of range: there are {count} vertices");
+        if let Some(reason) = reason_against(triangle, part, &builder.model.vertices[base..]) {
             builder.refuse_or_drop(place(), reason)?;
             continue;
         }
         let mut corners = triangle.map(corner);
-        if placements.of(triangle[0] as usize).mirrors {
+        if placements.of(part.vertices[triangle[0] as usize] as usize).mirrors {
             corners.swap(1, 2);
         }
         builder.polygon(&corners, place)?;
     }
     Ok(())
+}
+
+/// What is wrong with a triangle of a part whose vertices were placed, in the file's numbers.
+fn reason_against(triangle: &[u32; 3], part: &Part, placed: &[[f32; 3]]) -> Option<String> {
+    let count = part.positions.len();
+    if let Some(bad) = triangle.iter().find(|&&i| i as usize >= count) {
+        return Some(format!("vertex index {bad} is out of range: there are {count} vertices"));
+    }
+    let is_bad = |&&i: &&u32| !placed[i as usize].iter().all(|x| x.is_finite());
+    let bad = *triangle.iter().find(is_bad)? as usize;
+    Some(format!("vertex {} at {:?} is not finite", part.vertices[bad], placed[bad]))
 }

@@ -16,6 +16,7 @@ mod parts;
 mod placement;
 mod skins;
 mod textures;
+mod used;
 
 use super::Request;
 use crate::mesh::MeshBuilder;

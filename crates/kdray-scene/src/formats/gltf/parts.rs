@@ -2,6 +2,7 @@
 
 use super::accessors::Accessors;
 use super::materials::ReadMaterials;
+use super::used::UsedVertices;
 use crate::LoadError;
 use crate::mesh::MeshBuilder;
 use ::gltf::json::mesh::{Mode, Primitive, Semantic};
@@ -25,6 +26,11 @@ pub(super) struct Part {
     pub(super) colors: Attribute,
     pub(super) joints: Attribute,
     pub(super) weights: Attribute,
+    /// The vertices that triangles use, in the file's order; parts of the same sources have them
+    /// together.
+    pub(super) vertices: Rc<Vec<u32>>,
+    /// Indices into `vertices`; but where one is out of the range of `positions`, all three are as
+    /// in the file.
     pub(super) triangles: Vec<[u32; 3]>,
     pub(super) material: Option<u32>,
     /// The accessors that tell where vertices are. Primitives of a mesh that have the same share
@@ -37,6 +43,7 @@ pub(super) struct Parts<'a> {
     accessors: &'a Accessors<'a>,
     materials: &'a ReadMaterials,
     attributes: HashMap<usize, Attribute>,
+    used: UsedVertices,
     meshes: Vec<Option<Rc<Vec<Part>>>>,
     /// Primitives of points or lines, or without positions.
     passed_over: u64,
@@ -46,8 +53,8 @@ pub(super) struct Parts<'a> {
 impl<'a> Parts<'a> {
     pub(super) fn new(accessors: &'a Accessors<'a>, materials: &'a ReadMaterials) -> Self {
         let meshes = vec![None; accessors.document.root.meshes.len()];
-        let attributes = HashMap::new();
-        Self { accessors, materials, attributes, meshes, passed_over: 0, morphed: false }
+        let (attributes, used) = (HashMap::new(), UsedVertices::default());
+        Self { accessors, materials, attributes, used, meshes, passed_over: 0, morphed: false }
     }
 
     pub(super) fn of_mesh(&mut self, index: usize) -> Result<Rc<Vec<Part>>, LoadError> {
@@ -66,6 +73,7 @@ impl<'a> Parts<'a> {
                 None => self.passed_over += 1,
             }
         }
+        self.used.number(&mut parts);
         let parts = Rc::new(parts);
         self.meshes[index] = Some(Rc::clone(&parts));
         Ok(parts)
@@ -104,6 +112,7 @@ impl<'a> Parts<'a> {
             colors: self.attribute(attribute(Semantic::Colors(0)), 3..=4)?,
             joints: self.attribute(sources[1], 4..=4)?,
             weights: self.attribute(sources[2], 4..=4)?,
+            vertices: Rc::default(),
             triangles: triangles(mode, &indices),
             material: material.map(|material| material as u32),
             sources: sources.map(|source| source.map(|index| index.value())),
