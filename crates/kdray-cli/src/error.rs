@@ -133,7 +133,7 @@ mod tests {
         assert_eq!(code(MeshError::TooManyTriangles(0).into()), 3);
         assert_eq!(code(CliError::Stdout(system(io::ErrorKind::StorageFull))), 4);
         assert_eq!(code(CliError::Stdout(system(io::ErrorKind::BrokenPipe))), 0);
-        let too_large = WriteError::TooLarge { width: 0, height: 1 << 32 };
+        let too_large = WriteError::Size { width: 1, height: 1 << 32, limit: 9 };
         assert_eq!(code(CliError::picture(Path::new("large.png"), too_large)), 4);
         assert_eq!(code(WorldError::Build(BuildError::Cancelled).into()), 130);
     }

@@ -5,7 +5,7 @@
 mod support;
 
 use exr::prelude::{ReadChannels, ReadLayers};
-use kdray_render::{Picture, PictureKind, PngDepth, RenderOptions, WriteError};
+use kdray_render::{Picture, PictureKind, PngDepth, RenderOptions, Samples, WriteError};
 use std::io::{self, Cursor, Write};
 use support::*;
 
@@ -77,10 +77,51 @@ fn a_full_disk_is_an_error_that_keeps_its_cause() {
 }
 
 #[test]
-fn a_picture_that_no_png_can_hold_is_refused() {
+fn a_picture_that_no_file_can_hold_is_refused() {
     let (world, camera, lights) = still_life();
     let picture = shoot(&world, &camera, &lights, &plain(1, 1, 1));
-    let picture = Picture { width: 1 << 32, height: 0, ..picture };
-    let refused = picture.write_png(Vec::new(), PngDepth::Eight);
-    assert!(matches!(refused, Err(WriteError::TooLarge { height: 0, .. })), "{refused:?}");
+    for (width, height) in [(1 << 32, 0), (1 << 31, 1), (0, 0), (1, usize::MAX)] {
+        for error in refusals(&Picture { width, height, ..picture.clone() }) {
+            assert!(matches!(error, WriteError::Size { .. }), "{width} x {height}: {error:?}");
+        }
+    }
+}
+
+#[test]
+fn a_picture_that_contradicts_itself_is_refused() {
+    let (world, camera, lights) = still_life();
+    for kind in PictureKind::ALL {
+        let good =
+            shoot(&world, &camera, &lights, &RenderOptions { picture: kind, ..plain(2, 1, 1) });
+        for rendered in [vec![], vec![true; 1], vec![true; 3]] {
+            is_refused(&Picture { rendered, ..good.clone() }, "rendered");
+        }
+        for (width, height) in [(1, 1), (3, 1), ((1 << 30) - 2, (1 << 30) - 2)] {
+            is_refused(&Picture { width, height, ..good.clone() }, "rendered");
+        }
+        for length in [0, 1, 3] {
+            let mut bad = good.clone();
+            let layer = &mut bad.layers[0];
+            let channel = layer.channels.last_mut().unwrap();
+            match &mut channel.samples {
+                Samples::F32(samples) => samples.resize(length, 0.0),
+                Samples::U32(samples) => samples.resize(length, 0),
+            }
+            let name = format!("{}.{}", layer.name, channel.name);
+            is_refused(&bad, &name);
+        }
+    }
+}
+
+/// Whether both formats refuse the picture for the length of a list.
+fn is_refused(picture: &Picture, bad: &str) {
+    for error in refusals(picture) {
+        let WriteError::Length { list, .. } = &error else { panic!("{error:?}") };
+        assert_eq!(list, bad, "{error}");
+    }
+}
+
+fn refusals(picture: &Picture) -> [WriteError; 2] {
+    let png = picture.write_png(Vec::new(), PngDepth::Eight);
+    [png.unwrap_err(), picture.write_exr(Vec::new()).unwrap_err()]
 }

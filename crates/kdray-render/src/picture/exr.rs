@@ -7,6 +7,9 @@ use exr::prelude::{
 };
 use std::io::{Cursor, Write};
 
+/// The longest side of an OpenEXR picture: its window must end before half of what an i32 holds.
+const MAX_SIDE: u32 = (i32::MAX / 2) as u32 - 1;
+
 impl Picture {
     /// Writes all layers as one OpenEXR picture, without loss. The colour's channels are `R`, `G`,
     /// `B`, `A`; those of other layers are called `layer.channel`, such as `depth.Z`, which is how
@@ -15,6 +18,7 @@ impl Picture {
     /// # Errors
     /// See [`WriteError`].
     pub fn write_exr(&self, mut writer: impl Write) -> Result<(), WriteError> {
+        self.checked_size(MAX_SIDE)?;
         let mut channels = SmallVec::new();
         for layer in &self.layers {
             for channel in &layer.channels {

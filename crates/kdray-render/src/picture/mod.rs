@@ -1,5 +1,6 @@
 //! A picture as layers of numbers.
 
+mod check;
 mod exr;
 mod false_color;
 mod legend;

@@ -8,6 +8,9 @@ use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
 use std::io::Write;
 
+/// The longest side of a PNG, by its specification.
+const MAX_SIDE: u32 = i32::MAX as u32;
+
 /// How finely a PNG tells colours apart.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum PngDepth {
@@ -37,10 +40,7 @@ impl Picture {
     /// # Errors
     /// See [`WriteError`].
     pub fn write_png(&self, mut writer: impl Write, depth: PngDepth) -> Result<(), WriteError> {
-        let (width, height) = (self.width, self.height);
-        let (Ok(across), Ok(down)) = (u32::try_from(width), u32::try_from(height)) else {
-            return Err(WriteError::TooLarge { width, height });
-        };
+        let [across, down] = self.checked_size(MAX_SIDE)?;
         let canvas = self.canvas();
         let (bytes, color): (Vec<u8>, _) = match depth {
             PngDepth::Eight => (canvas.bytes(eight_bits), ExtendedColorType::Rgba8),

@@ -12,15 +12,31 @@ pub enum WriteError {
     /// The writer failed.
     #[error("the picture cannot be written; make room, or choose another place")]
     Io(#[source] io::Error),
-    /// The picture has more pixels across or down than the format can hold.
-    #[error("a picture of {width} x {height} does not fit a PNG; write it as OpenEXR")]
-    TooLarge {
+    /// The picture has no pixels, or more across or down than the format can hold.
+    #[error("a picture of {width} x {height} cannot be written; render sides from 1 to {limit}")]
+    Size {
+        /// Pixels across.
+        width: usize,
+        /// Pixels down.
+        height: usize,
+        /// The longest side that the format can hold.
+        limit: u32,
+    },
+    /// A list of the picture is not as long as there are pixels.
+    #[error(
+        "a picture of {width} x {height} has {found} entries in `{list}`; give one for each pixel"
+    )]
+    Length {
+        /// Which list: `rendered`, or a channel as `layer.channel`.
+        list: String,
+        /// Its length.
+        found: usize,
         /// Pixels across.
         width: usize,
         /// Pixels down.
         height: usize,
     },
     /// The encoder refuses the picture.
-    #[error("the picture cannot be encoded; its layers must have a number for each pixel")]
+    #[error("the picture cannot be encoded; change what the format cannot hold")]
     Encode(#[source] Box<dyn StdError + Send + Sync>),
 }
