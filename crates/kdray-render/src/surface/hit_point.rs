@@ -25,7 +25,7 @@ impl HitPoint {
             (Some(normal), Side::Front) => normal,
             (Some(normal), Side::Back) => -normal,
             // The triangle is a line as far as f64 can tell.
-            (None, _) => -DVec3::from(ray.direction).normalize(),
+            (None, _) => -unit(ray.direction.into()),
         };
         Self { point: BoundedPoint::on_triangle(corners, hit.u, hit.v), facing }
     }
@@ -52,6 +52,12 @@ impl HitPoint {
         let direction = DVec3::from(target) - self.point.position();
         Ray::through(self.point.leave(self.facing, direction), target)
     }
+}
+
+/// The direction in unit length. Scaled first, so that neither tiny nor huge ones leave the range
+/// of f64.
+fn unit(direction: DVec3) -> DVec3 {
+    (direction / direction.abs().max_element()).normalize()
 }
 
 fn geometric_normal([a, b, c]: [DVec3; 3]) -> Option<DVec3> {

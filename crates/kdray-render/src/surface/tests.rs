@@ -95,9 +95,13 @@ fn a_sliver_without_a_computed_normal_faces_the_viewer_from_both_sides() {
     let thin = [[1e-30, 0.0, 0.0], [2.0, 2.0, 0.0], [1.0, 1.0, 0.0]];
     let mesh = TriangleMesh::from_soup([thin]).unwrap();
     let hit = |side| Hit { t: 1.0, primitive_id: 0, u: 0.25, v: 0.25, side };
-    let ray = Ray::new([0.75, 0.8, 0.0], [0.0, -0.05, 0.0]);
-    for side in [Side::Front, Side::Back] {
-        assert_eq!(HitPoint::new(&mesh, &ray, &hit(side)).facing(), [0.0, 1.0, 0.0], "{side:?}");
+    for length in [0.05, 5e-202, 5e-324, 1e300] {
+        let ray = Ray::new([0.75, 0.8, 0.0], [0.0, -length, 0.0]);
+        assert_eq!(ray.check(), Ok(()));
+        for side in [Side::Front, Side::Back] {
+            let facing = HitPoint::new(&mesh, &ray, &hit(side)).facing();
+            assert_eq!(facing, [0.0, 1.0, 0.0], "{length}, {side:?}");
+        }
     }
 }
 
