@@ -90,8 +90,9 @@ pub fn render(
 ///
 /// Tiles are shared among the threads of the current rayon pool; the picture is the same bit for
 /// bit for any number of them. `progress` is told after tiles, and at the end if there is more to
-/// tell: from any thread, but never from two at once. If it answers [`ControlFlow::Break`], tiles that are not begun are left out, and
-/// the picture says so in [`complete`](Picture::complete).
+/// tell: from any thread, but never from two at once. If it answers [`ControlFlow::Break`], it is
+/// not called again, tiles that are not begun are left out, and the picture says so in
+/// [`complete`](Picture::complete).
 ///
 /// # Errors
 /// What about the size, the camera, the lights or the options is unusable, before any work.

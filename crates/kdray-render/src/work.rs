@@ -63,10 +63,14 @@ impl<'a> Work<'a> {
         state.progress.advance(self.tiles.count(), rays);
     }
 
-    /// Tells how far the work is, unless a call is under way. Nobody may wait for that one: if it
-    /// uses rayon, its own thread may turn to another tile meanwhile, and end up here.
+    /// Tells how far the work is, unless the answer was to stop, or a call is under way. Nobody may
+    /// wait for that one: if it uses rayon, its own thread may turn to another tile meanwhile, and
+    /// end up here.
     pub(crate) fn tell(&self) {
         let Ok(mut told) = self.told.try_lock() else { return };
+        if self.is_stopped() {
+            return;
+        }
         let progress = self.state().progress;
         if progress.tiles_done > *told {
             *told = progress.tiles_done;

@@ -38,6 +38,25 @@ fn an_interrupted_render_keeps_what_is_done() {
 }
 
 #[test]
+fn who_has_stopped_a_render_is_not_called_again() {
+    let (world, camera, lights) = still_life();
+    let calls = AtomicUsize::new(0);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+    let options = small(PictureKind::Shaded);
+    let render = || {
+        render_with_progress(&world, &camera, &lights, &options, &|_| {
+            calls.fetch_add(1, Ordering::Relaxed);
+            // The only thread turns to another tile, of which nothing is told.
+            rayon::yield_now();
+            ControlFlow::Break(())
+        })
+    };
+    let picture = pool.install(render).unwrap();
+    assert!(picture.rendered.iter().filter(|&&done| done).count() > 16 * 16, "a tile in flight");
+    assert_eq!((picture.complete, calls.into_inner()), (false, 1));
+}
+
+#[test]
 fn what_was_not_rendered_is_transparent_in_every_kind_of_picture() {
     for kind in PictureKind::ALL {
         // Less than 64 pixels across, there is no key to a heat map.
