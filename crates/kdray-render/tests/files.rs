@@ -113,6 +113,32 @@ fn a_picture_that_contradicts_itself_is_refused() {
     }
 }
 
+#[test]
+fn a_png_of_what_was_not_rendered_is_refused() {
+    let (world, camera, lights) = still_life();
+    let picture = shoot(&world, &camera, &lights, &plain(2, 1, 1));
+    for kind in PictureKind::ALL.into_iter().filter(|&kind| kind != PictureKind::Shaded) {
+        let picture = Picture { kind, ..picture.clone() };
+        let refused = picture.write_png(Vec::new(), PngDepth::Eight);
+        assert!(matches!(refused, Err(WriteError::NotThere(it)) if it == kind), "{refused:?}");
+    }
+}
+
+#[test]
+fn names_that_no_exr_can_hold_are_refused() {
+    let (world, camera, lights) = still_life();
+    let picture = shoot(&world, &camera, &lights, &plain(2, 1, 1));
+    for name in ["", "G", "日"] {
+        let mut picture = picture.clone();
+        picture.layers[0].channels[0].name = name;
+        let refused = picture.write_exr(Vec::new());
+        assert!(matches!(refused, Err(WriteError::Encode(_))), "{name}: {refused:?}");
+    }
+    let nothing = Picture { layers: vec![], ..picture };
+    let refused = nothing.write_exr(Vec::new());
+    assert!(matches!(refused, Err(WriteError::Encode(_))), "{refused:?}");
+}
+
 /// Whether both formats refuse the picture for the length of a list.
 fn is_refused(picture: &Picture, bad: &str) {
     for error in refusals(picture) {

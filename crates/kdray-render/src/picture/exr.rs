@@ -2,7 +2,7 @@
 
 use super::{Picture, Samples, WriteError};
 use exr::prelude::{
-    AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, LayerAttributes, SmallVec,
+    AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, LayerAttributes, SmallVec, Text,
     WritableImage,
 };
 use std::io::{Cursor, Write};
@@ -30,7 +30,7 @@ impl Picture {
                     Samples::F32(samples) => FlatSamples::F32(samples.clone()),
                     Samples::U32(samples) => FlatSamples::U32(samples.clone()),
                 };
-                channels.push(AnyChannel::new(name.as_str(), samples));
+                channels.push(AnyChannel::new(text(&name)?, samples));
             }
         }
         let image = Image::from_layer(Layer::new(
@@ -43,4 +43,9 @@ impl Picture {
         image.write().to_buffered(&mut file).map_err(|error| WriteError::Encode(error.into()))?;
         writer.write_all(file.get_ref()).map_err(WriteError::Io)
     }
+}
+
+fn text(name: &str) -> Result<Text, WriteError> {
+    let error = || format!("the name `{name}` has letters that OpenEXR does not know");
+    Text::new_or_none(name).ok_or_else(|| WriteError::Encode(error().into()))
 }

@@ -41,7 +41,7 @@ impl Picture {
     /// See [`WriteError`].
     pub fn write_png(&self, mut writer: impl Write, depth: PngDepth) -> Result<(), WriteError> {
         let [across, down] = self.checked_size(MAX_SIDE)?;
-        let canvas = self.canvas();
+        let canvas = self.canvas()?;
         let (bytes, color): (Vec<u8>, _) = match depth {
             PngDepth::Eight => (canvas.bytes(eight_bits), ExtendedColorType::Rgba8),
             // The encoder takes native byte order.
@@ -54,7 +54,8 @@ impl Picture {
         writer.write_all(&file).map_err(WriteError::Io)
     }
 
-    fn canvas(&self) -> Canvas {
+    /// What `kind` names, drawn.
+    fn canvas(&self) -> Result<Canvas, WriteError> {
         let mut canvas = Canvas {
             width: self.width,
             height: self.height,
@@ -69,29 +70,31 @@ impl Picture {
             PictureKind::Cost => self.draw_cost(&mut canvas, "nodes + triangles", [1.0, 1.0]),
             PictureKind::CostNodes => self.draw_cost(&mut canvas, "nodes visited", [1.0, 0.0]),
             PictureKind::CostPrimitives => {
-                self.draw_cost(&mut canvas, "triangles tested", [0.0, 1.0]);
+                self.draw_cost(&mut canvas, "triangles tested", [0.0, 1.0])
             }
         }
-        canvas
+        .ok_or(WriteError::NotThere(self.kind))?;
+        Ok(canvas)
     }
 
-    /// The channels of a layer, none if they are not there.
+    /// The channels of a layer, none if one of them is not there.
     fn channels<const N: usize>(&self, layer: &str, names: [&str; N]) -> Option<[&[f32]; N]> {
         let channels = names.map(|name| self.floats(layer, name));
         channels.iter().all(Option::is_some).then(|| channels.map(Option::unwrap_or_default))
     }
 
-    fn draw_color(&self, canvas: &mut Canvas) {
-        let Some([r, g, b, a]) = self.channels("color", ["R", "G", "B", "A"]) else { return };
+    fn draw_color(&self, canvas: &mut Canvas) -> Option<()> {
+        let [r, g, b, a] = self.channels("color", ["R", "G", "B", "A"])?;
         self.fill(canvas, |i| {
             let [r, g, b] = [r[i], g[i], b[i]].map(|x| srgb(x * self.exposure));
             [r, g, b, a[i]]
         });
+        Some(())
     }
 
-    fn draw_depth(&self, canvas: &mut Canvas) {
+    fn draw_depth(&self, canvas: &mut Canvas) -> Option<()> {
         const FARTHEST: f32 = 0.1;
-        let Some([depth]) = self.channels("depth", ["Z"]) else { return };
+        let [depth] = self.channels("depth", ["Z"])?;
         let surfaces = self.indices().map(|i| depth[i]).filter(|z| z.is_finite());
         let (near, far) =
             surfaces.fold((f32::INFINITY, 0.0_f32), |(near, far), z| (near.min(z), far.max(z)));
@@ -100,34 +103,37 @@ impl Picture {
             let share = if far > near { (z - near) / (far - near) } else { 0.0 };
             opaque([if z.is_finite() { 1.0 - share * (1.0 - FARTHEST) } else { 0.0 }; 3])
         });
+        Some(())
     }
 
-    fn draw_normal(&self, canvas: &mut Canvas) {
-        let Some([x, y, z]) = self.channels("normal", ["X", "Y", "Z"]) else { return };
+    fn draw_normal(&self, canvas: &mut Canvas) -> Option<()> {
+        let [x, y, z] = self.channels("normal", ["X", "Y", "Z"])?;
         self.fill(canvas, |i| match [x[i], y[i], z[i]] {
             [0.0, 0.0, 0.0] => opaque([0.0; 3]),
             n => opaque(n.map(|n| 0.5 + 0.5 * n)),
         });
+        Some(())
     }
 
-    fn draw_ids(&self, canvas: &mut Canvas) {
-        let Some(ids) = self.ids("primitive", "id") else { return };
+    fn draw_ids(&self, canvas: &mut Canvas) -> Option<()> {
+        let ids = self.ids("primitive", "id")?;
         self.fill(canvas, |i| opaque(false_color::of_id(ids[i])));
+        Some(())
     }
 
-    fn draw_occlusion(&self, canvas: &mut Canvas) {
-        let Some([open]) = self.channels("occlusion", ["V"]) else { return };
+    fn draw_occlusion(&self, canvas: &mut Canvas) -> Option<()> {
+        let [open] = self.channels("occlusion", ["V"])?;
         self.fill(canvas, |i| opaque([srgb(open[i]); 3]));
+        Some(())
     }
 
-    fn draw_cost(&self, canvas: &mut Canvas, title: &str, weights: [f32; 2]) {
-        let Some([nodes, primitives]) = self.channels("cost", ["nodes", "primitives"]) else {
-            return;
-        };
+    fn draw_cost(&self, canvas: &mut Canvas, title: &str, weights: [f32; 2]) -> Option<()> {
+        let [nodes, primitives] = self.channels("cost", ["nodes", "primitives"])?;
         let cost = |i: usize| weights[0] * nodes[i] + weights[1] * primitives[i];
         let scale = HeatScale::new(self.indices().map(cost), self.heat_max);
         self.fill(canvas, |i| opaque(scale.color(cost(i))));
         legend::draw(canvas, title, &scale);
+        Some(())
     }
 
     /// The pixels that were rendered.

@@ -1,6 +1,7 @@
 //! Why a picture could not be written. Pictures are encoded in memory before the first byte is
 //! written, so that a writer's errors can be told from an encoder's.
 
+use crate::options::PictureKind;
 use std::error::Error as StdError;
 use std::io;
 use thiserror::Error;
@@ -36,6 +37,9 @@ pub enum WriteError {
         /// Pixels down.
         height: usize,
     },
+    /// What a PNG shall show was not rendered, or the layer has other channels.
+    #[error("the picture has no layer that shows {0:?}; render that kind, or all layers")]
+    NotThere(PictureKind),
     /// The encoder refuses the picture.
     #[error("the picture cannot be encoded; change what the format cannot hold")]
     Encode(#[source] Box<dyn StdError + Send + Sync>),
