@@ -255,7 +255,11 @@ fn compare_prints_a_table_and_draws_a_png() {
     for part in ["round-robin", "SAH cost", "bounce: Mrays/s", "All answers are identical."] {
         assert!(text.contains(part), "no `{part}` in {text}");
     }
+    assert!(text.contains("\nBuilds and rates: on 1 thread. Rates: median of 1 round"), "{text}");
     assert!(!text.contains("naive"), "{text}");
+    let help = folder.kdray(&["compare", "--help"]).succeeds().stdout;
+    let help = help.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(help.contains("Builds and rates are measured on one thread unless"), "{help}");
     assert!(png_size(&folder.path("bars.png")).0 > 1000);
 }
 

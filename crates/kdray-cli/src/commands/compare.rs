@@ -30,11 +30,11 @@ const MAX_RAYS: i64 = 1 << 22;
 /// Compare the four ways to choose the splitting plane, and the answer without a tree
 ///
 /// All answer the same three sets of rays: `primary` rays through the pixels, `shadow` rays from
-/// where those hit to a light (any hit): that of --light, or else the scene's first, or else one over
-/// the camera's shoulder, and `bounce` rays from there in directions of
-/// diffuse reflection. Their answers must be identical; if they are not, the command fails with
-/// exit code 1. Rates are the median over the rounds, in which the contenders take turns, on one
-/// thread unless --threads says otherwise.
+/// where those hit to a light (any hit): that of --light, or else the scene's first, or else one
+/// over the camera's shoulder, and `bounce` rays from there in directions of diffuse reflection.
+/// Their answers must be identical; if they are not, the command fails with exit code 1. Rates are
+/// the median over the rounds, in which the contenders take turns. Builds and rates are measured
+/// on one thread unless --threads says otherwise.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Example: a table, and the same as bar charts

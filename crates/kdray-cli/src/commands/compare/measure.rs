@@ -13,7 +13,7 @@ use kdray::{
 use rayon::{ThreadPool, prelude::*};
 use std::{hint::black_box, time::Instant};
 
-/// How many triangle tests the naive answer may cost a set of rays in all.
+/// About how many triangle tests the naive answer may cost a set of rays in all.
 const NAIVE_TESTS: usize = 60_000_000;
 
 /// What a contender did with one set of rays.
@@ -164,7 +164,8 @@ fn by_testing_all(mesh: &TriangleMesh, bounds: &Aabb<3>, set: &RaySet, rounds: u
     Figures { set: set.name, rays: answers.len(), stride, counters, seconds: 0.0, answers }
 }
 
-/// Every so manieth ray is asked, so that all rounds together stay below [`NAIVE_TESTS`].
+/// Every so manieth ray is asked, the first always. All rounds together cost no more than
+/// [`NAIVE_TESTS`] and those of one ray, which alone are more if there are many triangles.
 fn naive_stride(rays: usize, triangles: usize, rounds: u32) -> usize {
     let rounds = (rounds as usize).saturating_add(1);
     let tests = rays.saturating_mul(triangles).saturating_mul(rounds);
@@ -218,6 +219,16 @@ mod tests {
         assert_eq!(naive_stride(1_000_000, 6, 9), 1);
         assert_eq!(naive_stride(1_000_000, 600, 9), 100);
         assert_eq!(naive_stride(usize::MAX, 2, u32::MAX), usize::MAX.div_ceil(NAIVE_TESTS));
+    }
+
+    #[test]
+    fn the_naive_answer_costs_at_most_one_ray_more_than_it_may() {
+        let (rays, rounds) = (20_034, 5);
+        for triangles in [1, 8, 1000, 402_700, 70_000_000] {
+            let asked = (0..rays).step_by(naive_stride(rays, triangles, rounds)).count();
+            let one_ray = triangles * (rounds as usize + 1);
+            assert!(asked >= 1 && asked * one_ray <= NAIVE_TESTS + one_ray, "{asked}");
+        }
     }
 
     fn contender(name: &'static str, stride: usize, answers: Vec<Answer>) -> Contender<'static> {

@@ -9,10 +9,11 @@ pub(super) fn draw(report: &Report, scene: &str) -> Canvas {
     let [width, height] = report.primary_grid;
     let title = format!("{scene}: {} triangles, four ways to split", report.triangles);
     let subtitle = format!(
-        "{width} x {height} camera rays, median of {} rounds on {} thread{}; all answers are identical",
-        report.rounds,
+        "{width} x {height} camera rays; builds and rates on {} thread{}, rates the median of {} \
+         rounds; all answers are identical",
         report.threads,
         if report.threads == 1 { "" } else { "s" },
+        report.rounds,
     );
     let tree = |title: &str, note, value: fn(&TreeEntry) -> f64| {
         let values = report.contenders.iter().map(|entry| entry.tree.as_ref().map(value)).collect();

@@ -99,7 +99,8 @@ impl Report {
             ray that meets the box, one visit of an inner node being 1. primary: rays through pixels;\n\
             shadow: from their hits to the light, any hit; bounce: from their hits in a random direction.\n";
         text += &format!(
-            "Rates: median of {rounds} rounds on {threads} thread{}, contenders in turn.",
+            "Builds and rates: on {threads} thread{}. \
+             Rates: median of {rounds} rounds, contenders in turn.",
             if threads == 1 { "" } else { "s" }
         );
         text += &self.naive_note();
@@ -111,7 +112,7 @@ impl Report {
         let naive = self.contenders.iter().find(|entry| entry.tree.is_none());
         match naive {
             Some(entry) if entry.primary.rays < all => {
-                format!(" naive was asked {} of the {all} primary rays.", entry.primary.rays)
+                format!("\nnaive was asked {} of the {all} primary rays.", entry.primary.rays)
             }
             _ => String::new(),
         }
