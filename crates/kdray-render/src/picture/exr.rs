@@ -15,6 +15,10 @@ impl Picture {
     /// `B`, `A`; those of other layers are called `layer.channel`, such as `depth.Z`, which is how
     /// OpenEXR names layers. The id is a whole number, all others are 32-bit floats.
     ///
+    /// The file is made in memory before its first byte is written, as an OpenEXR file is not
+    /// written from front to back. Besides the picture that takes up to four times as much memory
+    /// as its layers.
+    ///
     /// # Errors
     /// See [`WriteError`].
     pub fn write_exr(&self, mut writer: impl Write) -> Result<(), WriteError> {

@@ -37,15 +37,18 @@ impl Picture {
     /// surface, a normal's components from −1 to 1 become 0 to 255, ids get colours of their own,
     /// and costs the colours of a heat scale that is drawn into the picture with its numbers.
     ///
+    /// The file is made in memory before its first byte is written. Besides the picture that takes
+    /// up to 24 bytes a pixel with 8 bits a channel, and up to 56 with 16.
+    ///
     /// # Errors
     /// See [`WriteError`].
     pub fn write_png(&self, mut writer: impl Write, depth: PngDepth) -> Result<(), WriteError> {
         let [across, down] = self.checked_size(MAX_SIDE)?;
         let canvas = self.canvas()?;
         let (bytes, color): (Vec<u8>, _) = match depth {
-            PngDepth::Eight => (canvas.bytes(eight_bits), ExtendedColorType::Rgba8),
+            PngDepth::Eight => (canvas.into_bytes(eight_bits), ExtendedColorType::Rgba8),
             // The encoder takes native byte order.
-            PngDepth::Sixteen => (canvas.bytes(u16::to_ne_bytes), ExtendedColorType::Rgba16),
+            PngDepth::Sixteen => (canvas.into_bytes(u16::to_ne_bytes), ExtendedColorType::Rgba16),
         };
         let mut file = Vec::new();
         PngEncoder::new_with_quality(&mut file, CompressionType::Default, FilterType::Adaptive)
@@ -154,7 +157,8 @@ fn opaque([r, g, b]: [f32; 3]) -> [f32; 4] {
 }
 
 impl Canvas {
-    fn bytes<const N: usize>(&self, bytes: impl Fn(u16) -> [u8; N]) -> Vec<u8> {
+    /// The canvas is gone then: the encoder wants the memory.
+    fn into_bytes<const N: usize>(self, bytes: impl Fn(u16) -> [u8; N]) -> Vec<u8> {
         self.pixels.iter().flatten().flat_map(|&value| bytes(value)).collect()
     }
 }
