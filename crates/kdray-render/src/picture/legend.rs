@@ -44,7 +44,7 @@ pub(crate) fn draw(canvas: &mut Canvas, title: &str, scale: &HeatScale) {
     pen.text(&last, end, 22);
     let middle = number(scale.max / 2.0);
     let width = middle.len() * CHARACTER;
-    if 4 + CHARACTER < columns / 2 - width / 2 && columns / 2 + width / 2 + CHARACTER < end {
+    if 4 + CHARACTER + width / 2 < columns / 2 && columns / 2 + width / 2 + CHARACTER < end {
         pen.text(&middle, columns / 2 - width / 2, 22);
     }
 }
@@ -108,6 +108,17 @@ mod tests {
             assert_eq!(drawn, width >= 64);
             let red = canvas.pixels.iter().any(|[r, _, b, _]| *r > 30_000 && *b < 3_000);
             assert_eq!(red, width >= 64);
+        }
+    }
+
+    #[test]
+    fn a_number_without_room_is_left_out_or_cut() {
+        for max in [1e9, 1e20, f32::MAX, f32::INFINITY] {
+            for width in [64, 100, 208, 400] {
+                let mut canvas = Canvas { width, height: 40, pixels: vec![[0; 4]; width * 40] };
+                draw(&mut canvas, "nodes visited", &HeatScale { max, exceeded: true });
+                assert!(canvas.pixels.contains(&WHITE));
+            }
         }
     }
 
