@@ -35,8 +35,8 @@ pub fn point_light_for(bounds: &Aabb<3>, position: [f64; 3]) -> Light {
 }
 
 /// The light of a scene that has none: a weak lamp at the camera, so that no interior is dark, and
-/// last the sun from over the camera's left shoulder. The lamp makes a white surface gray (0.3) that
-/// faces it from a third of the diagonal of `bounds`.
+/// last the sun from over the camera's left shoulder. The lamp makes a white surface gray (0.3)
+/// that faces it from a third of the diagonal of `bounds`.
 pub fn default_lights(camera: &Camera, bounds: &Aabb<3>) -> Vec<Light> {
     let forward = (DVec3::from(camera.look_at) - DVec3::from(camera.eye)).normalize_or(-DVec3::Z);
     let right = forward.cross(camera.up.into()).normalize_or(DVec3::X);
