@@ -1,6 +1,6 @@
 //! `cargo xtask agree`.
 
-use crate::steps::Steps;
+use crate::steps::{Steps, need_scenes};
 use clap::Args;
 
 /// What is compared; see `tests/src/bin/agree.rs`.
@@ -20,6 +20,7 @@ pub(crate) struct Options {
 
 /// Runs the comparison.
 pub(crate) fn run(options: &Options) -> Result<(), String> {
+    need_scenes()?;
     let mut arguments: Vec<String> = "run --release --quiet -p kdray-tests --bin agree --"
         .split(' ')
         .map(str::to_owned)

@@ -1,6 +1,6 @@
 //! `cargo xtask parity`.
 
-use crate::steps::Steps;
+use crate::steps::{Steps, need_scenes};
 use clap::Args;
 
 /// What is counted; see `tests/src/bin/parity.rs`.
@@ -16,6 +16,7 @@ pub(crate) struct Options {
 
 /// Runs the check.
 pub(crate) fn run(options: &Options) -> Result<(), String> {
+    need_scenes()?;
     let mut arguments: Vec<String> = "run --release --quiet -p kdray-tests --bin parity --"
         .split(' ')
         .map(str::to_owned)

@@ -1,6 +1,6 @@
 //! `cargo xtask pixels`.
 
-use crate::steps::Steps;
+use crate::steps::{Steps, need_scenes};
 use clap::Args;
 
 /// What is rendered; see `tests/src/bin/pixels.rs`.
@@ -13,6 +13,7 @@ pub(crate) struct Options {
 
 /// Runs the comparison.
 pub(crate) fn run(options: &Options) -> Result<(), String> {
+    need_scenes()?;
     let mut arguments: Vec<String> = "run --release --quiet -p kdray-tests --bin pixels --"
         .split(' ')
         .map(str::to_owned)

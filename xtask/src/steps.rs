@@ -56,6 +56,17 @@ impl Steps {
     }
 }
 
+/// Checks, before anything is compiled, that the large scenes are there.
+pub(crate) fn need_scenes() -> Result<(), String> {
+    let listing = concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared/scenes/scenes.json");
+    match std::path::Path::new(listing).exists() {
+        true => Ok(()),
+        false => Err("this check needs large scenes, which are not part of the repository: a \
+                      folder ../shared/scenes beside the checkout, with a scenes.json"
+            .to_owned()),
+    }
+}
+
 /// The cargo that runs this program.
 pub(crate) fn cargo() -> Command {
     Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
