@@ -9,7 +9,8 @@ use kdray_scene::{Camera, Light, Model, Projection};
 /// From where the scene is seen, and how large the picture is.
 #[derive(Clone, Debug, clap::Args)]
 pub(crate) struct ViewArgs {
-    /// The size of the picture in pixels
+    /// The size in pixels of a render, and of the picture in a drawing, whose key and scale come
+    /// on top
     #[arg(long, value_name = "WxH", default_value = "960x540")]
     pub(crate) size: Size,
     /// The observer; without it the file's first camera, or one that frames the scene
@@ -18,10 +19,11 @@ pub(crate) struct ViewArgs {
     /// The point in the middle of the picture
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = numbers::<3>)]
     pub(crate) look_at: Option<[f64; 3]>,
-    /// What points up in the picture
+    /// What points up in the picture; without it the camera's, or the y axis
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = numbers::<3>)]
     pub(crate) up: Option<[f64; 3]>,
-    /// The angle between the lower and the upper edge of the picture
+    /// The angle between the lower and the upper edge of the picture, below 180; without it the
+    /// camera's, or 40
     #[arg(long, value_name = "DEGREES")]
     pub(crate) fov: Option<f64>,
     /// A camera of the file, by its name or by its number from 0

@@ -27,7 +27,7 @@ const OF_A_RENDER: [&str; 8] =
 /// Draw the tree: its cells over a render, or a slice through it
 ///
 /// Without --slice, the planes of the tree's upper levels are drawn as outlines over a render of
-/// the scene; what surfaces hide of them is dashed. With --slice, one plane through the scene is
+/// the scene; what surfaces hide of them is dotted. With --slice, one plane through the scene is
 /// shown: its leaves, shaded by how many triangles they list, the splitting planes, coloured by
 /// axis, and the triangles, each as the plane cuts it.
 #[derive(Debug, clap::Args)]
@@ -37,7 +37,10 @@ Example: the first six levels of a tree over the scene
 
 Example: a slice, for two ways to choose the splitting plane
   kdray draw bunny.ply -o sah.svg --slice z=0
-  kdray draw bunny.ply -o middle.svg --slice z=0 --split middle")]
+  kdray draw bunny.ply -o middle.svg --slice z=0 --split middle
+
+Example: a part of a slice of the built-in scene, whose floor is wide
+  kdray draw -o part.svg --slice z=0 --window=-5,5,-0.3,3")]
 pub(crate) struct Args {
     #[command(flatten)]
     scene: SceneArgs,
@@ -111,9 +114,9 @@ fn write_slice(
     let room = [args.view.size.width as f64, args.view.size.height as f64];
     let Some((canvas, figures)) = draw_slice(world.scene(), &slice, room) else {
         return Err(CliError::Usage(format!(
-            "--slice {name}={value}: the scene lies between {name} = {} and {}; choose a value \
-             there, and a --window in its slice",
-            bounds.min[axis], bounds.max[axis]
+            "--slice {name}={value}: nothing of the scene is there; its box goes from {:?} to \
+             {:?}: choose a value, and a --window, within",
+            bounds.min, bounds.max
         )));
     };
     file.write(canvas, 1.0)?;
@@ -132,9 +135,10 @@ fn write_wireframe(
     let bounds = world.scene().tree().bounds();
     let camera = args.view.camera(world.model(), bounds)?;
     let render = render(args, globals, world, &camera)?;
-    let depth = args.depth.unwrap_or(WIREFRAME_DEPTH);
+    let deepest = world.scene().tree().cells().map(|cell| cell.depth).max().unwrap_or(0);
+    let depth = args.depth.unwrap_or(WIREFRAME_DEPTH).min(deepest);
     let title = format!(
-        "{}: the planes of the upper {depth} levels, split {}",
+        "{}: the planes of the tree to depth {depth}, split {}",
         scene_name(&args.scene),
         args.build.split.name()
     );

@@ -58,32 +58,32 @@ struct QualityArgs {
     /// Bits a channel, 8 without it; only for .png
     #[arg(long, value_name = "8|16", value_parser = bits)]
     bits: Option<PngDepth>,
-    /// Rays a pixel through the camera
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    /// Rays a pixel through the camera; without it 16
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65536))]
     samples: Option<u32>,
-    /// How many times a ray may be mirrored or refracted
-    #[arg(long, value_name = "N")]
+    /// How many times a ray may be mirrored or refracted; without it 8
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(..=64))]
     bounces: Option<u32>,
-    /// Shadow rays per camera ray and rectangular light
-    #[arg(long, value_name = "N")]
+    /// Shadow rays per camera ray and rectangular light; without it 2
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
     light_samples: Option<u32>,
-    /// Chooses the random numbers: the same seed gives the same picture
+    /// Chooses the random numbers, 0 without it: the same seed gives the same picture
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
     /// The colour behind everything, linear RGB; without it a sky
     #[arg(long, value_name = "R,G,B", value_parser = color)]
     background: Option<[f32; 3]>,
-    /// Light from all around, linear RGB
+    /// Light from all around, linear RGB; without it 0.16,0.18,0.215
     #[arg(long, value_name = "R,G,B", value_parser = color)]
     ambient: Option<[f32; 3]>,
-    /// Rays per camera ray by which the surroundings block ambient light; 0 for none
-    #[arg(long, value_name = "N")]
+    /// Rays per camera ray by which the surroundings block ambient light; 0 for none, without it 1
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(..=1024))]
     ambient_rays: Option<u32>,
     /// How far surfaces block ambient light, in units of the scene; without it a tenth of the
     /// diagonal
     #[arg(long, value_name = "LENGTH")]
     occlusion_distance: Option<f64>,
-    /// What a PNG multiplies colours by
+    /// What a PNG multiplies colours by; without it 1
     #[arg(long, value_name = "FACTOR")]
     exposure: Option<f32>,
     /// The cost with the last colour of a cost picture; without it the 99.5th percentile

@@ -122,6 +122,7 @@ fn legend(section: &Section) -> Vec<Vec<Entry>> {
             Entry::line(palette::AXES[axis], 2.4, text)
         })
         .collect();
+    marks.push(Entry::line(palette::BLACK, 2.4, "box of the root"));
     marks.push(Entry::line(palette::BLACK, 1.2, "triangle, cut by the slice"));
     let shades = palette::leaf_shades().map(|(color, label)| Entry::area(color, label));
     let heading = Entry::words("triangles in the leaf:");

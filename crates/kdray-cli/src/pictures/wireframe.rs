@@ -53,7 +53,7 @@ type Piece = ([[f64; 2]; 2], bool);
 const PIECE: f64 = 4.0;
 const HEADER: f64 = 40.0;
 
-/// Draws the planes of the tree's upper levels over the render. What the scene hides is dashed
+/// Draws the planes of the tree's upper levels over the render. What the scene hides is dotted
 /// and faint: rays from the camera tell.
 pub(crate) fn draw_wireframe(it: &Wireframe<'_>) -> Canvas {
     let [width, height] = it.size;

@@ -10,7 +10,8 @@ pub(crate) enum Mode {
     Closest,
     /// Whether there is a hit: occluded
     Any,
-    /// Every crossing of a surface, by rising t: ray_splits, ray_ids and the arrays of closest
+    /// Every crossing of a surface, by rising t: ray_ids, ray_splits (not in CSV), t_hit,
+    /// geometry_ids, primitive_ids, primitive_uvs
     All,
     /// How many surfaces are crossed: intersection_counts
     Count,

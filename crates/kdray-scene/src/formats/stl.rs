@@ -54,7 +54,8 @@ impl Reader<'_> {
         let count = u32::from_le_bytes(self.scanner.array()?);
         for index in 0..count {
             let Ok(record) = self.scanner.array::<50>() else {
-                let reason = format!("the file ends here, but it says it has {count} triangles");
+                let reason =
+                    format!("the file ends here, but as binary STL it has {count} triangles");
                 return Err(self.scanner.error_at(triangle(index), reason));
             };
             let number = |at: usize| {

@@ -56,7 +56,7 @@ fn overview_rect(section: &Section, ray: &Ray, t: [f64; 2], root: Rect) -> Rect 
     let way = Rect::around(&t.map(|t| section.place(ray.at(t))));
     let around_way = way.grown(0.35 * way.size()[0].max(way.size()[1]));
     let crop = |whole: [f64; 2], part: [f64; 2]| {
-        let small = part[1] - part[0] < 0.4 * (whole[1] - whole[0]);
+        let small = part[1] - part[0] < 0.15 * (whole[1] - whole[0]);
         if small { [part[0].max(whole[0]), part[1].min(whole[1])] } else { whole }
     };
     let root =

@@ -59,7 +59,7 @@ fn check_columns(line: u64, text: &str, columns: &mut Option<usize>) -> Result<u
     let found = text.split(',').count();
     let expected = *columns.get_or_insert(found);
     if !matches!(expected, 6 | 8) {
-        let wanted = "give 6 (origin, direction) or 8 (and t_min, t_max)";
+        let wanted = "give 6 (origin, direction) or 8 (and t_min, t_max), with commas between";
         return Err(bad(line, format!("has {found} numbers; {wanted}")));
     }
     if found != expected {
