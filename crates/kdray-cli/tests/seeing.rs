@@ -173,7 +173,8 @@ fn pictures_that_cannot_be_drawn_are_refused() {
     let fails = |arguments: &[&str], code: i32, parts: &[&str]| {
         folder.kdray(&[&["draw"], arguments].concat()).fails(code, parts);
     };
-    fails(&["eight.off", "-o", "a.svg", "--slice", "z=1.5"], USAGE, &["z=1.5", "-1 and 1"]);
+    let beside = ["eight.off", "-o", "a.svg", "--slice", "z=1.5"];
+    fails(&beside, USAGE, &["z=1.5", "(-1, -1, -1) to (1, 1, 1)"]);
     fails(&["eight.off", "-o", "a.svg", "--slice", "w=1"], USAGE, &["such as z=0.5"]);
     let far = ["eight.off", "-o", "a.svg", "--slice", "z=0", "--window", "5,6,0,1"];
     fails(&far, USAGE, &["--window"]);

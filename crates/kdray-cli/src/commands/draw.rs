@@ -112,11 +112,13 @@ fn write_slice(
     let section = Section::perpendicular(axis, value);
     let slice = Slice { section, depth, window: args.window, title: &title };
     let room = [args.view.size.width as f64, args.view.size.height as f64];
+    let corner = |p: [f32; 3]| p.map(|x| readable(x.into())).join(", ");
     let Some((canvas, figures)) = draw_slice(world.scene(), &slice, room) else {
         return Err(CliError::Usage(format!(
-            "--slice {name}={value}: nothing of the scene is there; its box goes from {:?} to \
-             {:?}: choose a value, and a --window, within",
-            bounds.min, bounds.max
+            "--slice {name}={value}: nothing of the scene is there; its box goes from ({}) to \
+             ({}): choose a value, and a --window, within",
+            corner(bounds.min),
+            corner(bounds.max),
         )));
     };
     file.write(canvas, 1.0)?;
