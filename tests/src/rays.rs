@@ -68,13 +68,13 @@ impl<'a, S: Subject<K>, const K: usize> Archer<'a, S, K> {
     /// Through a corner; exactly so, for the origin is an f32 of about the same size, so that the
     /// direction is an f64 without rounding.
     fn at_a_vertex(&mut self) -> Ray<K> {
-        let from = self.around(1.0).map(|x| f64::from(x as f32));
+        let from = self.around(1.0).map(rounded);
         Ray::through(from, self.corner())
     }
 
     /// Through the middle between two corners.
     fn at_an_edge(&mut self) -> Ray<K> {
-        let from = self.around(1.0).map(|x| f64::from(x as f32));
+        let from = self.around(1.0).map(rounded);
         let (a, b) = self.edge();
         Ray::through(from, std::array::from_fn(|k| 0.5 * (a[k] + b[k])))
     }
@@ -184,4 +184,9 @@ impl<'a, S: Subject<K>, const K: usize> Archer<'a, S, K> {
         let first = self.random.random_range(0..corners.len());
         (corners[first], corners[(first + 1) % corners.len()])
     }
+}
+
+/// The nearest finite f32.
+fn rounded(x: f64) -> f64 {
+    f64::from(x.clamp(f32::MIN.into(), f32::MAX.into()) as f32)
 }
