@@ -10,9 +10,8 @@ use crate::surface::{Surface, opacity};
 use crate::world::World;
 use glam::Vec3;
 use kdray::primitives::HitRule;
-use kdray::traverse::{Counters, LeafStep, SplitStep, Trace};
+use kdray::traverse::{Counters, Trace};
 use kdray::{Hit, Ray};
-use std::cell::Cell;
 
 /// Occlusion rays per camera ray for [`PictureKind::AmbientOcclusion`], at the least.
 const LEAST_OCCLUSION_RAYS: u32 = 4;
@@ -100,7 +99,7 @@ impl<'a> PixelTracer<'a> {
     /// Depth, normal and id, which have no sensible mean, along the ray through the middle.
     fn trace_middle(&self, pixel: [usize; 2], values: &mut PixelValues) {
         let ray = self.camera_ray(pixel, [0.5; 2]);
-        let Some(hit) = self.first_hit(ray, ()) else {
+        let Some(hit) = self.first_hit(ray, &mut ()) else {
             values.depth = f32::INFINITY;
             values.primitive_id = u32::MAX;
             return;
@@ -111,56 +110,29 @@ impl<'a> PixelTracer<'a> {
     }
 
     fn openness(&self, ray: Ray, sampler: Sampler) -> f32 {
-        let Some(hit) = self.first_hit(ray, ()) else { return 1.0 };
+        let Some(hit) = self.first_hit(ray, &mut ()) else { return 1.0 };
         let surface = Surface::new(self.tracer.world, &ray, &hit);
         let count = self.options.ambient_rays.max(LEAST_OCCLUSION_RAYS);
         self.tracer.ambient_share(&surface, count, sampler).dot(Vec3::ONE) / 3.0
     }
 
     fn cost(&self, ray: Ray) -> [f32; 2] {
-        let counters = Cell::default();
-        self.first_hit(ray, Tally(&counters));
-        let counters = counters.get();
+        let mut counters = Counters::default();
+        self.first_hit(ray, &mut counters);
         [counters.nodes() as f32, counters.primitives as f32]
     }
 
     /// The first hit on a surface that is there, watched by `trace`.
-    fn first_hit(&self, ray: Ray, mut trace: impl Trace + Copy) -> Option<Hit> {
+    fn first_hit(&self, ray: Ray, trace: &mut impl Trace) -> Option<Hit> {
         self.tracer.count_ray();
         let world = self.tracer.world;
         let is_there = |hit: &Hit| opacity(world, hit) > 0.0;
-        let hit = world.scene().closest_hit_traced(&ray, &mut trace)?;
+        let hit = world.scene().closest_hit_traced(&ray, trace)?;
         if is_there(&hit) {
             return Some(hit);
         }
         // Another surface may lie at the t of the cut-out.
         let rest = ray.with_interval(hit.t, ray.interval.t_max);
         world.scene().all_hits_traced(&rest, HitRule::Crossing, trace).find(is_there)
-    }
-}
-
-/// Counts of several queries together.
-#[derive(Clone, Copy)]
-struct Tally<'a>(&'a Cell<Counters>);
-
-impl Tally<'_> {
-    fn count(self, count: impl FnOnce(&mut Counters)) {
-        let mut counters = self.0.get();
-        count(&mut counters);
-        self.0.set(counters);
-    }
-}
-
-impl Trace for Tally<'_> {
-    fn split(&mut self, step: &SplitStep) {
-        self.count(|counters| counters.split(step));
-    }
-
-    fn leaf(&mut self, step: &LeafStep) {
-        self.count(|counters| counters.leaf(step));
-    }
-
-    fn primitive(&mut self, id: u32, t: Option<f64>) {
-        self.count(|counters| counters.primitive(id, t));
     }
 }
