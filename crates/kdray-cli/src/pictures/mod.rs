@@ -51,8 +51,6 @@ pub(crate) fn readable(value: f64) -> String {
     if value.is_infinite() {
         return if value > 0.0 { "∞".into() } else { "−∞".into() };
     }
-    // What is only the slack around zero is zero for people.
-    let value = if value.abs() <= f64::MIN_POSITIVE { 0.0 } else { value };
     let magnitude = if value == 0.0 { 0.0 } else { value.abs().log10().floor() };
     if !(-4.0..7.0).contains(&magnitude) {
         return format!("{value:.4e}");

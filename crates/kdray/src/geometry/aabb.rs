@@ -1,6 +1,6 @@
 //! The axis-aligned bounding box and the slab test (S3, S4 of the founding lecture).
 
-use super::{Interval, Ray, t_above, t_below};
+use super::{Interval, Ray, t_above, t_below, widened};
 
 /// An axis-aligned bounding box in K dimensions: the points P with `min ≤ P ≤ max` on every axis.
 ///
@@ -102,7 +102,8 @@ impl<const K: usize> Aabb<K> {
     ///
     /// A ray parallel to a slab (a component of zero or negative zero) is inside it for all t or
     /// for none; one that runs in a face is inside. The interval, the ray's own included, is widened
-    /// by 2^-38 of t, so that no rounding excludes a t for which the exact point lies in the box.
+    /// by 2^-38 of t, so that no rounding excludes a t for which the exact point lies in the box. A
+    /// ray that starts in the box is inside from exactly zero.
     ///
     /// The lecture's worked example, a box from (−2, −2, 4) to (2, 2, 9):
     /// ```
@@ -114,8 +115,7 @@ impl<const K: usize> Aabb<K> {
     /// assert!((interval.t_min - 4.0).abs() < 1e-9 && (interval.t_max - 5.0).abs() < 1e-9);
     /// ```
     pub fn slab(&self, ray: &Ray<K>) -> Option<Interval> {
-        let Interval { t_min, t_max } = ray.interval;
-        let mut inside = Interval { t_min: t_below(t_min), t_max: t_above(t_max) };
+        let mut inside = widened(ray.interval);
         for axis in 0..K {
             let (e, d) = (ray.origin[axis], ray.direction[axis]);
             let (min, max) = (f64::from(self.min[axis]), f64::from(self.max[axis]));

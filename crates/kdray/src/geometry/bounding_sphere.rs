@@ -1,6 +1,6 @@
 //! The sphere as a bounding volume.
 
-use super::{Aabb, BoundingVolume, Interval, Ray, chord, t_above, t_below};
+use super::{Aabb, BoundingVolume, Interval, Ray, chord, t_above, t_below, widened};
 
 /// A ball in K dimensions that holds an object (S1): cheap to test, loose for long objects.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,9 +47,8 @@ impl<const K: usize> BoundingVolume<K> for BoundingSphere<K> {
         }
         let [enter, leave] = chord(ray, &self.center, radius)?.t;
         // NaN bounds nothing: the larger and the smaller of it and a number are the number.
-        let Interval { t_min, t_max } = ray.interval;
-        let t_min = t_below(t_min).max(t_below(enter));
-        let inside = Interval { t_min, t_max: t_above(t_max).min(t_above(leave)) };
+        let chord = Interval { t_min: t_below(enter), t_max: t_above(leave) };
+        let inside = widened(ray.interval).intersection(chord);
         (!inside.is_empty()).then_some(inside)
     }
 }

@@ -18,4 +18,4 @@ pub use clip::clipped_bounds;
 pub use interval::Interval;
 pub use plane::Plane;
 pub use ray::{Ray, RayError};
-pub(crate) use slack::{t_above, t_below};
+pub(crate) use slack::{t_above, t_below, widened};

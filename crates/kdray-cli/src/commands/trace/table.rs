@@ -152,25 +152,19 @@ pub(super) fn json(scene: &Scene, ray: &Ray, steps: &[Step], hit: Option<Hit>) -
     })
 }
 
-/// A ray that starts inside the box enters it at zero, less the smallest normal number: the
-/// traversal's slack, which is no one's business here.
-fn without_slack(t: f64) -> f64 {
-    if t.abs() <= f64::MIN_POSITIVE { 0.0 } else { t }
-}
-
 fn step_json(step: &Step) -> Value {
     match step {
         Step::Root(None) => json!({ "step": "root", "hit": false }),
         Step::Root(Some(interval)) => {
             let (t_near, t_far) = (interval.t_min, interval.t_max);
-            json!({ "step": "root", "hit": true, "t_near": without_slack(t_near), "t_far": t_far })
+            json!({ "step": "root", "hit": true, "t_near": t_near, "t_far": t_far })
         }
         Step::Split(it) => json!({
             "step": "split",
             "node": it.node,
             "axis": AXES[it.axis],
             "split": it.split,
-            "t_near": without_slack(it.t_near),
+            "t_near": it.t_near,
             "t_split": it.t_split,
             "t_far": it.t_far,
             "case": match it.case {
@@ -185,14 +179,14 @@ fn step_json(step: &Step) -> Value {
         Step::Leaf(it) => json!({
             "step": "leaf",
             "node": it.node,
-            "t_near": without_slack(it.t_near),
+            "t_near": it.t_near,
             "t_far": it.t_far,
             "triangles": it.primitives,
             "stack_depth": it.stack_depth,
         }),
         Step::Primitive { id, t } => json!({ "step": "triangle", "triangle": id, "t": t }),
         Step::Pop { node, t_near } => {
-            json!({ "step": "pop", "node": node, "t_near": without_slack(*t_near) })
+            json!({ "step": "pop", "node": node, "t_near": t_near })
         }
         Step::FinishEarly { t, t_near } => json!({ "step": "finish", "t": t, "t_near": t_near }),
     }
