@@ -152,8 +152,15 @@ impl Scaled {
         let half = exponent / 2;
         let quotient =
             self.mantissa / divisor.mantissa * power_of_two(half) * power_of_two(exponent - half);
-        if quotient == 0.0 { f64::from_bits(1).copysign(quotient) } else { quotient }
+        not_vanished(quotient)
     }
+}
+
+/// A quotient of numbers other than zero; where it is too small for an f64, the smallest number of
+/// its sign. A hit behind a ray's origin must not move into it.
+#[inline]
+pub(crate) fn not_vanished(quotient: f64) -> f64 {
+    if quotient == 0.0 { f64::from_bits(1).copysign(quotient) } else { quotient }
 }
 
 /// 2^exponent, clamped to what an f64 holds.

@@ -23,6 +23,7 @@
 mod accumulator;
 mod edge;
 
+pub(crate) use accumulator::not_vanished;
 pub use accumulator::{Accumulator, Scaled};
 pub use edge::{
     cross_component, edge_function, side_of_ray, turned_edge_sign, turned_side_sign, volume,

@@ -1,7 +1,7 @@
 //! The ray–triangle test: a filter in f64, and exact arithmetic where the filter cannot tell.
 
 use super::{Hit, HitRule, Side};
-use crate::exact::{Scaled, edge_function, turned_edge_sign, volume};
+use crate::exact::{Scaled, edge_function, not_vanished, turned_edge_sign, volume};
 use crate::geometry::{Ray, t_above, t_below};
 use glam::{DVec3, Vec3Swizzles};
 use std::cmp::Ordering;
@@ -80,7 +80,7 @@ pub fn intersect_triangle(
             return None;
         }
         let good = t_error <= RELATIVE_ERROR * t_den.abs() && t_terms < 1e300;
-        let t = if good { signed_quotient(t_den, den) } else { t_exactly(corners, ray, den) };
+        let t = if good { not_vanished(t_den / den) } else { t_exactly(corners, ray, den) };
         (t, (u / den).clamp(0.0, 1.0), (v / den).clamp(0.0, 1.0), den > 0.0)
     } else {
         values_exactly(corners, ray)
@@ -88,14 +88,6 @@ pub fn intersect_triangle(
     let side = if front { Side::Front } else { Side::Back };
     let hit = Hit { t, primitive_id: id, u, v: v.min(1.0 - u), side };
     (t.is_finite() && ray.interval.contains(t)).then_some(hit)
-}
-
-/// numerator / divisor, and where that is too small for an f64, the smallest number of its sign: a
-/// hit behind the ray's origin must not move into it. The numerator is not zero.
-#[inline]
-fn signed_quotient(numerator: f64, divisor: f64) -> f64 {
-    let quotient = numerator / divisor;
-    if quotient == 0.0 { f64::from_bits(1).copysign(quotient) } else { quotient }
 }
 
 /// The sum of the absolute values of the terms of (a x b) · c.
