@@ -33,8 +33,7 @@ impl CsvRays {
                 continue;
             }
             let found = check_columns(line, text, &mut self.columns)?;
-            let is_heading = text.split(',').all(|field| field.trim().parse::<f64>().is_err());
-            if !(std::mem::take(&mut self.may_be_heading) && is_heading) {
+            if !(std::mem::take(&mut self.may_be_heading) && is_heading(text)) {
                 rays.push(ray(line, text, found)?);
             }
         }
@@ -52,6 +51,10 @@ impl CsvRays {
             Err(error) => Err(RaysError::Io(error)),
         }
     }
+}
+
+fn is_heading(text: &str) -> bool {
+    text.split(',').all(|field| field.trim().parse::<f64>().is_err())
 }
 
 /// How many fields the line has, which must be as many as the lines before have.
