@@ -5,7 +5,7 @@ use kdray::primitives::{HitRule, intersect_triangle};
 use kdray::{BuildOptions, Hit, Ray, Scene, Strategy, TriangleMesh};
 use kdray_tests::agree::{agrees_with_the_oracle, compare, flat_answers, random_rays, view};
 use kdray_tests::flat::Flat;
-use kdray_tests::shared::{load_mesh, scenes};
+use kdray_tests::shared::{SceneInfo, load_mesh, scenes};
 use kdray_tests::{meshes, rays::Archer};
 
 /// Small scenes that are hard in different ways.
@@ -19,13 +19,18 @@ const SCENES: [&str; 7] = [
     "awkward_utm_offset",
 ];
 
+fn small_scenes() -> impl Iterator<Item = (SceneInfo, TriangleMesh)> {
+    let small = |info: &SceneInfo| SCENES.contains(&info.name.as_str());
+    let loaded = |info| {
+        let mesh = load_mesh(&info).expect("the scene loads");
+        (info, mesh)
+    };
+    scenes().into_iter().flatten().filter(small).map(loaded)
+}
+
 #[test]
 fn every_strategy_sees_the_same_in_small_scenes() {
-    for info in scenes().into_iter().flatten() {
-        if !SCENES.contains(&info.name.as_str()) {
-            continue;
-        }
-        let mesh = load_mesh(&info).expect("the scene loads");
+    for (info, mesh) in small_scenes() {
         let mut rays = info.camera.map_or_else(Vec::new, |camera| view(&camera, 48));
         rays.extend(random_rays(&mesh, 1000, 2));
         let answers = flat_answers(&mesh, &rays);
@@ -40,11 +45,7 @@ fn every_strategy_sees_the_same_in_small_scenes() {
 /// All queries, against arithmetic that shares no formula with kdray.
 #[test]
 fn small_scenes_agree_with_the_oracle() {
-    for info in scenes().into_iter().flatten() {
-        if !SCENES.contains(&info.name.as_str()) {
-            continue;
-        }
-        let mesh = load_mesh(&info).expect("the scene loads");
+    for (info, mesh) in small_scenes() {
         let mut rays = Archer::new(&mesh, 3).all_kinds(4, 1e3);
         rays.extend(info.camera.map_or_else(Vec::new, |camera| view(&camera, 8)));
         let scene = Scene::build(mesh, &BuildOptions::default()).expect("the scene is valid");

@@ -1,6 +1,6 @@
 //! `cargo xtask agree`.
 
-use crate::steps::{Steps, need_scenes};
+use crate::steps::{Steps, option};
 use clap::Args;
 
 /// What is compared; see `tests/src/bin/agree.rs`.
@@ -20,16 +20,11 @@ pub(crate) struct Options {
 
 /// Runs the comparison.
 pub(crate) fn run(options: &Options) -> Result<(), String> {
-    need_scenes()?;
-    let mut arguments: Vec<String> = "run --release --quiet -p kdray-tests --bin agree --"
-        .split(' ')
-        .map(str::to_owned)
-        .collect();
     let rays = options.rays.map(|rays| rays.to_string());
-    let given =
-        [("--scenes", &options.scenes), ("--rays", &rays), ("--strategies", &options.strategies)];
-    for (name, value) in given {
-        arguments.extend(value.iter().flat_map(|value| [name.to_owned(), value.clone()]));
-    }
-    Steps::new().cargo_with("agreement with the naive answer", &arguments, &[])
+    let given = [
+        option("--scenes", options.scenes.as_ref()),
+        option("--rays", rays.as_ref()),
+        option("--strategies", options.strategies.as_ref()),
+    ];
+    Steps::on_scenes()?.check("agreement with the naive answer", "agree", given.concat())
 }

@@ -1,6 +1,6 @@
 //! `cargo xtask parity`.
 
-use crate::steps::{Steps, need_scenes};
+use crate::steps::{Steps, option};
 use clap::Args;
 
 /// What is counted; see `tests/src/bin/parity.rs`.
@@ -16,12 +16,7 @@ pub(crate) struct Options {
 
 /// Runs the check.
 pub(crate) fn run(options: &Options) -> Result<(), String> {
-    need_scenes()?;
-    let mut arguments: Vec<String> = "run --release --quiet -p kdray-tests --bin parity --"
-        .split(' ')
-        .map(str::to_owned)
-        .collect();
-    arguments.extend(options.full.then(|| "--full".to_owned()));
-    arguments.extend(options.scenes.iter().flat_map(|s| ["--scenes".to_owned(), s.clone()]));
-    Steps::new().cargo_with("parity of closed meshes", &arguments, &[])
+    let mut given = option("--scenes", options.scenes.as_ref());
+    given.extend(options.full.then(|| "--full".to_owned()));
+    Steps::on_scenes()?.check("parity of closed meshes", "parity", given)
 }

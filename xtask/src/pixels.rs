@@ -1,6 +1,6 @@
 //! `cargo xtask pixels`.
 
-use crate::steps::{Steps, need_scenes};
+use crate::steps::{Steps, option};
 use clap::Args;
 
 /// What is rendered; see `tests/src/bin/pixels.rs`.
@@ -13,13 +13,8 @@ pub(crate) struct Options {
 
 /// Runs the comparison.
 pub(crate) fn run(options: &Options) -> Result<(), String> {
-    need_scenes()?;
-    let mut arguments: Vec<String> = "run --release --quiet -p kdray-tests --bin pixels --"
-        .split(' ')
-        .map(str::to_owned)
-        .collect();
-    arguments.extend(options.scenes.iter().flat_map(|s| ["--scenes".to_owned(), s.clone()]));
-    let mut steps = Steps::new();
+    let mut steps = Steps::on_scenes()?;
     steps.cargo("the command", "build --release --quiet -p kdray-cli", &[])?;
-    steps.cargo_with("pictures by every strategy", &arguments, &[])
+    let given = option("--scenes", options.scenes.as_ref());
+    steps.check("pictures by every strategy", "pixels", given)
 }

@@ -1,5 +1,6 @@
 //! Running cargo, step by step, and saying how long each step took.
 
+use std::path::Path;
 use std::process::Command;
 use std::time::Instant;
 
@@ -13,6 +14,17 @@ impl Steps {
     /// None so far.
     pub(crate) fn new() -> Self {
         Self { started: Instant::now(), count: 0 }
+    }
+
+    /// The same, if the large scenes are there: checked before anything is compiled.
+    pub(crate) fn on_scenes() -> Result<Self, String> {
+        let listing = concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared/scenes/scenes.json");
+        if Path::new(listing).exists() {
+            return Ok(Self::new());
+        }
+        let needed = "this check needs large scenes, which are not part of the repository: a \
+                      folder ../shared/scenes beside the checkout, with a scenes.json";
+        Err(needed.to_owned())
     }
 
     /// Runs `cargo` with the given arguments, separated by blanks, and environment variables.
@@ -49,6 +61,18 @@ impl Steps {
         }
     }
 
+    /// Runs a program of the crate `kdray-tests` in a release build.
+    pub(crate) fn check(
+        &mut self,
+        what: &str,
+        program: &str,
+        options: Vec<String>,
+    ) -> Result<(), String> {
+        let run = ["run", "--release", "--quiet", "-p", "kdray-tests", "--bin", program, "--"];
+        let arguments: Vec<String> = run.into_iter().map(str::to_owned).chain(options).collect();
+        self.cargo_with(what, &arguments, &[])
+    }
+
     /// Says that all is well.
     pub(crate) fn finish(self, task: &str) {
         let seconds = self.started.elapsed().as_secs_f64();
@@ -56,15 +80,9 @@ impl Steps {
     }
 }
 
-/// Checks, before anything is compiled, that the large scenes are there.
-pub(crate) fn need_scenes() -> Result<(), String> {
-    let listing = concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared/scenes/scenes.json");
-    match std::path::Path::new(listing).exists() {
-        true => Ok(()),
-        false => Err("this check needs large scenes, which are not part of the repository: a \
-                      folder ../shared/scenes beside the checkout, with a scenes.json"
-            .to_owned()),
-    }
+/// An option and its value, if it has one.
+pub(crate) fn option(name: &str, value: Option<&String>) -> Vec<String> {
+    value.map_or(Vec::new(), |value| vec![name.to_owned(), value.clone()])
 }
 
 /// The cargo that runs this program.
