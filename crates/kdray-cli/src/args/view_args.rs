@@ -23,7 +23,7 @@ pub(crate) struct ViewArgs {
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = numbers::<3>)]
     pub(crate) up: Option<[f64; 3]>,
     /// The angle between the lower and the upper edge of the picture, below 180; without it the
-    /// camera's, or 40
+    /// camera's
     #[arg(long, value_name = "DEGREES")]
     pub(crate) fov: Option<f64>,
     /// A camera of the file, by its name or by its number from 0

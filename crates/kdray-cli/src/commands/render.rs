@@ -58,34 +58,34 @@ struct QualityArgs {
     /// Bits a channel, 8 without it; only for .png
     #[arg(long, value_name = "8|16", value_parser = bits)]
     bits: Option<PngDepth>,
-    /// Rays a pixel through the camera; without it 16
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65536))]
-    samples: Option<u32>,
-    /// How many times a ray may be mirrored or refracted; without it 8
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(..=64))]
-    bounces: Option<u32>,
-    /// Shadow rays per camera ray and rectangular light; without it 2
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
-    light_samples: Option<u32>,
-    /// Chooses the random numbers, 0 without it: the same seed gives the same picture
-    #[arg(long, value_name = "N")]
-    seed: Option<u64>,
+    /// Rays a pixel through the camera
+    #[arg(long, value_name = "N", default_value_t = RenderOptions::default().samples, value_parser = clap::value_parser!(u32).range(1..=65536))]
+    samples: u32,
+    /// How many times a ray may be mirrored or refracted
+    #[arg(long, value_name = "N", default_value_t = RenderOptions::default().max_bounces, value_parser = clap::value_parser!(u32).range(..=64))]
+    bounces: u32,
+    /// Shadow rays per camera ray and rectangular light
+    #[arg(long, value_name = "N", default_value_t = RenderOptions::default().light_samples, value_parser = clap::value_parser!(u32).range(1..=1024))]
+    light_samples: u32,
+    /// Chooses the random numbers: the same seed gives the same picture
+    #[arg(long, value_name = "N", default_value_t = RenderOptions::default().seed)]
+    seed: u64,
     /// The colour behind everything, linear RGB; without it a sky
     #[arg(long, value_name = "R,G,B", value_parser = color)]
     background: Option<[f32; 3]>,
-    /// Light from all around, linear RGB; without it 0.16,0.18,0.215
+    /// Light from all around, linear RGB; without it a faint, bluish one
     #[arg(long, value_name = "R,G,B", value_parser = color)]
     ambient: Option<[f32; 3]>,
-    /// Rays per camera ray by which the surroundings block ambient light; 0 for none, without it 1
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(..=1024))]
-    ambient_rays: Option<u32>,
+    /// Rays per camera ray by which the surroundings block ambient light; 0 for none
+    #[arg(long, value_name = "N", default_value_t = RenderOptions::default().ambient_rays, value_parser = clap::value_parser!(u32).range(..=1024))]
+    ambient_rays: u32,
     /// How far surfaces block ambient light, in units of the scene; without it a tenth of the
     /// diagonal
     #[arg(long, value_name = "LENGTH")]
     occlusion_distance: Option<f64>,
-    /// What a PNG multiplies colours by; without it 1
-    #[arg(long, value_name = "FACTOR")]
-    exposure: Option<f32>,
+    /// What a PNG multiplies colours by
+    #[arg(long, value_name = "FACTOR", default_value_t = RenderOptions::default().exposure)]
+    exposure: f32,
     /// The cost with the last colour of a cost picture; without it the 99.5th percentile
     #[arg(long, value_name = "COST")]
     heat_max: Option<f32>,
@@ -190,17 +190,17 @@ fn options(args: &Args) -> RenderOptions {
     RenderOptions {
         width: args.view.size.width,
         height: args.view.size.height,
-        samples: quality.samples.unwrap_or(default.samples),
-        max_bounces: quality.bounces.unwrap_or(default.max_bounces),
+        samples: quality.samples,
+        max_bounces: quality.bounces,
         picture: quality.picture.kind(),
         all_layers: quality.layers,
-        seed: quality.seed.unwrap_or(default.seed),
+        seed: quality.seed,
         background: quality.background.map_or(default.background, Background::Color),
         ambient: quality.ambient.unwrap_or(default.ambient),
-        ambient_rays: quality.ambient_rays.unwrap_or(default.ambient_rays),
+        ambient_rays: quality.ambient_rays,
         occlusion_distance: quality.occlusion_distance.or(default.occlusion_distance),
-        light_samples: quality.light_samples.unwrap_or(default.light_samples),
-        exposure: quality.exposure.unwrap_or(default.exposure),
+        light_samples: quality.light_samples,
+        exposure: quality.exposure,
         heat_max: quality.heat_max.or(default.heat_max),
     }
 }
