@@ -3,7 +3,7 @@
 use crate::cases::{Aimed, Case};
 use kdray::geometry::BoundingSphere;
 use kdray::traverse::Naive;
-use kdray::{BuildOptions, Hit, KdTree, Scene};
+use kdray::{BuildOptions, Hit, KdTree, ShapeScene};
 use kdray_tests::Subject;
 use kdray_tests::oracle::{agrees_on_all, agrees_on_closest};
 use kdray_tests::rays::Archer;
@@ -17,10 +17,10 @@ const IN_SPLIT_PLANES: usize = 60;
 pub(crate) fn on_each<S: Subject<K> + Clone + Send + Sync, const K: usize>(
     options: &BuildOptions,
     cases: &[Case<S, K>],
-    check: impl Fn(&Scene<S, K>, &Aimed<K>) -> Result<(), String> + Sync,
+    check: impl Fn(&ShapeScene<S, K>, &Aimed<K>) -> Result<(), String> + Sync,
 ) {
     for case in cases {
-        let scene = Scene::build(case.subject.clone(), options).expect("cases are valid");
+        let scene = ShapeScene::build(case.subject.clone(), options).expect("cases are valid");
         let mut archer = Archer::new(&case.subject, case.seed);
         let in_planes: Vec<_> = archer
             .in_split_planes(scene.tree(), IN_SPLIT_PLANES)
@@ -53,7 +53,7 @@ pub(crate) fn trees_are_valid<S: Subject<K>, const K: usize>(
 
 /// The nearest primitive touched, the same as without the tree to the last bit.
 pub(crate) fn closest_hit<S: Subject<K>, const K: usize>(
-    scene: &Scene<S, K>,
+    scene: &ShapeScene<S, K>,
     aimed: &Aimed<K>,
 ) -> Result<(), String> {
     let found = scene.closest_hit(&aimed.ray);
@@ -68,7 +68,7 @@ pub(crate) fn closest_hit<S: Subject<K>, const K: usize>(
 
 /// Whether anything is touched.
 pub(crate) fn any_hit<S: Subject<K>, const K: usize>(
-    scene: &Scene<S, K>,
+    scene: &ShapeScene<S, K>,
     aimed: &Aimed<K>,
 ) -> Result<(), String> {
     let found = scene.any_hit(&aimed.ray);
@@ -79,7 +79,7 @@ pub(crate) fn any_hit<S: Subject<K>, const K: usize>(
 
 /// Every crossing, in order.
 pub(crate) fn all_hits<S: Subject<K>, const K: usize>(
-    scene: &Scene<S, K>,
+    scene: &ShapeScene<S, K>,
     aimed: &Aimed<K>,
 ) -> Result<(), String> {
     let found: Vec<Hit> = scene.all_hits(&aimed.ray).collect();
@@ -92,7 +92,7 @@ pub(crate) fn all_hits<S: Subject<K>, const K: usize>(
 
 /// Every primitive touched, in order.
 pub(crate) fn all_touched<S: Subject<K>, const K: usize>(
-    scene: &Scene<S, K>,
+    scene: &ShapeScene<S, K>,
     aimed: &Aimed<K>,
 ) -> Result<(), String> {
     let found: Vec<Hit> = scene.all_touched(&aimed.ray).collect();
@@ -105,7 +105,7 @@ pub(crate) fn all_touched<S: Subject<K>, const K: usize>(
 
 /// The number of crossings.
 pub(crate) fn count<S: Subject<K>, const K: usize>(
-    scene: &Scene<S, K>,
+    scene: &ShapeScene<S, K>,
     aimed: &Aimed<K>,
 ) -> Result<(), String> {
     same(&scene.count(&aimed.ray), &aimed.crossed.naive.len())
@@ -113,7 +113,7 @@ pub(crate) fn count<S: Subject<K>, const K: usize>(
 
 /// The naive answer, with a sphere for the bounding volume that is tested first.
 fn in_sphere<S: Subject<K>, const K: usize>(
-    scene: &Scene<S, K>,
+    scene: &ShapeScene<S, K>,
 ) -> Naive<'_, S, BoundingSphere<K>> {
     Naive::new(scene.primitives(), BoundingSphere::of_aabb(scene.tree().bounds()))
 }

@@ -2,7 +2,7 @@
 //! interval: it was reported, and closed meshes were crossed once too often.
 
 use kdray::primitives::{HitRule, Segments, intersect_triangle};
-use kdray::{Ray, Scene};
+use kdray::{Ray, ShapeScene};
 
 #[test]
 fn a_triangle_a_hair_behind_the_origin_is_not_hit() {
@@ -20,7 +20,7 @@ fn a_triangle_a_hair_behind_the_origin_is_not_hit() {
 #[test]
 fn a_segment_a_hair_behind_the_origin_is_not_hit() {
     let segments = Segments::new(vec![[[0.0, 0.0], [1.0, 0.0]]]).unwrap();
-    let scene = Scene::build(segments, &Default::default()).unwrap();
+    let scene = ShapeScene::build(segments, &Default::default()).unwrap();
     for (height, hit) in [(1e-30, false), (0.0, true), (-1e-30, true)] {
         let ray = Ray::new([0.2, height], [0.0, 1e299]);
         assert_eq!(scene.any_hit(&ray), hit, "{height}");

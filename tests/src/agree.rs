@@ -74,7 +74,7 @@ pub fn agrees_with_the_oracle(scene: &Scene, rays: &[Ray<3>]) -> Result<(), Stri
 }
 
 fn is_right(scene: &Scene, ray: &Ray<3>) -> Result<(), String> {
-    let exact = |rule| scene.primitives().exact_hits(ray, rule).unwrap_or_default();
+    let exact = |rule| scene.mesh().exact_hits(ray, rule).unwrap_or_default();
     let (touched, crossed) = (exact(HitRule::Touching), exact(HitRule::Crossing));
     let closest = scene.closest_hit(ray);
     agrees_on_closest(&touched, closest.as_ref(), ray)?;

@@ -65,7 +65,7 @@ impl Parity {
 
 /// The vertices and edge midpoints of the mesh.
 fn targets(scene: &Scene) -> Vec<[f64; 3]> {
-    let mesh = scene.primitives();
+    let mesh = scene.mesh();
     let (vertices, edges) = vertices_and_edges(mesh);
     let position = |vertex: u32| mesh.vertices()[vertex as usize].map(f64::from);
     let middle = |(a, b): (u32, u32)| {

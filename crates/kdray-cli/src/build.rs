@@ -1,12 +1,26 @@
 //! Building a tree with progress and Ctrl-C.
 
 use crate::{args::BuildArgs, cli::Globals, error::CliError, interrupt, progress::Progress};
-use kdray::{BuildProgress, Scene, TriangleMesh};
+use kdray::{BuildProgress, Scene, ShapeScene, TriangleMesh};
 use kdray_render::World;
 use kdray_scene::Model;
 use std::ops::ControlFlow;
 
-/// Builds a tree over `mesh`, and says how long it took.
+/// Builds the canonical tree over `mesh`, and says how long it took.
+pub(crate) fn shapes(
+    mesh: TriangleMesh,
+    args: &BuildArgs,
+    globals: &Globals,
+) -> Result<ShapeScene, CliError> {
+    let progress = start(mesh.triangles().len(), globals);
+    let _watch = interrupt::watch();
+    let step = |done| step(&progress, done);
+    let shapes = ShapeScene::build_with_progress(mesh, &args.options(), &step)?;
+    finish(progress, &shapes);
+    Ok(shapes)
+}
+
+/// Builds the trees over `mesh`, and says how long it took.
 pub(crate) fn scene(
     mesh: TriangleMesh,
     args: &BuildArgs,
@@ -15,7 +29,7 @@ pub(crate) fn scene(
     let progress = start(mesh.triangles().len(), globals);
     let _watch = interrupt::watch();
     let scene = Scene::build_with_progress(mesh, &args.options(), &|done| step(&progress, done))?;
-    finish(progress, &scene);
+    finish(progress, scene.shapes());
     Ok(scene)
 }
 
@@ -24,7 +38,7 @@ pub(crate) fn world(model: Model, args: &BuildArgs, globals: &Globals) -> Result
     let progress = start(model.triangles.len(), globals);
     let _watch = interrupt::watch();
     let world = World::new_with_progress(model, &args.options(), &|done| step(&progress, done))?;
-    finish(progress, world.scene());
+    finish(progress, world.scene().shapes());
     Ok(world)
 }
 
@@ -37,7 +51,7 @@ fn step(progress: &Progress, done: BuildProgress) -> ControlFlow<()> {
     interrupt::flow()
 }
 
-fn finish(progress: Progress, scene: &Scene) {
-    let (nodes, took) = (scene.tree().nodes().len(), progress.elapsed());
+fn finish(progress: Progress, shapes: &ShapeScene) {
+    let (nodes, took) = (shapes.tree().nodes().len(), progress.elapsed());
     progress.finish(&format!("built a tree of {nodes} nodes in {took:.2?}"));
 }

@@ -99,7 +99,7 @@ impl<'a> PixelTracer<'a> {
     /// Depth, normal and id, which have no sensible mean, along the ray through the middle.
     fn trace_middle(&self, pixel: [usize; 2], values: &mut PixelValues) {
         let ray = self.camera_ray(pixel, [0.5; 2]);
-        let Some(hit) = self.first_hit(ray, &mut ()) else {
+        let Some(hit) = self.first_hit(ray) else {
             values.depth = f32::INFINITY;
             values.primitive_id = u32::MAX;
             return;
@@ -110,29 +110,40 @@ impl<'a> PixelTracer<'a> {
     }
 
     fn openness(&self, ray: Ray, sampler: Sampler) -> f32 {
-        let Some(hit) = self.first_hit(ray, &mut ()) else { return 1.0 };
+        let Some(hit) = self.first_hit(ray) else { return 1.0 };
         let surface = Surface::new(self.tracer.world, &ray, &hit);
         let count = self.options.ambient_rays.max(LEAST_OCCLUSION_RAYS);
         self.tracer.ambient_share(&surface, count, sampler).dot(Vec3::ONE) / 3.0
     }
 
+    /// What the lecture's traversal does to find the first hit: the fast kernels are not watched.
     fn cost(&self, ray: Ray) -> [f32; 2] {
+        self.tracer.count_ray();
         let mut counters = Counters::default();
-        self.first_hit(ray, &mut counters);
+        let shapes = self.tracer.world.scene().shapes();
+        let hit = shapes.closest_hit_traced(&ray, &mut counters);
+        self.behind_cut_outs(&ray, hit, &mut counters);
         [counters.nodes() as f32, counters.primitives as f32]
     }
 
-    /// The first hit on a surface that is there, watched by `trace`.
-    fn first_hit(&self, ray: Ray, trace: &mut impl Trace) -> Option<Hit> {
+    /// The first hit on a surface that is there.
+    fn first_hit(&self, ray: Ray) -> Option<Hit> {
         self.tracer.count_ray();
+        let hit = self.tracer.world.scene().closest_hit(&ray);
+        self.behind_cut_outs(&ray, hit, &mut ())
+    }
+
+    /// `hit`, the closest, if it is on a surface that is there; else the next one that is.
+    fn behind_cut_outs(&self, ray: &Ray, hit: Option<Hit>, trace: &mut impl Trace) -> Option<Hit> {
         let world = self.tracer.world;
         let is_there = |hit: &Hit| opacity(world, hit) > 0.0;
-        let hit = world.scene().closest_hit_traced(&ray, trace)?;
+        let hit = hit?;
         if is_there(&hit) {
             return Some(hit);
         }
         // Another surface may lie at the t of the cut-out.
         let rest = ray.with_interval(hit.t, ray.interval.t_max);
-        world.scene().all_hits_traced(&rest, HitRule::Crossing, trace).find(is_there)
+        let shapes = world.scene().shapes();
+        shapes.all_hits_traced(&rest, HitRule::Crossing, trace).find(is_there)
     }
 }

@@ -6,7 +6,7 @@
 use kdray::geometry::Plane;
 use kdray::primitives::Segments;
 use kdray::traverse::{Step, StepRecorder, TraversalCase};
-use kdray::{Aabb, BuildOptions, Ray, Scene, Strategy};
+use kdray::{Aabb, BuildOptions, Ray, ShapeScene, Strategy};
 use std::io::{self, Write};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
@@ -67,7 +67,7 @@ fn traversal(out: &mut impl Write) -> Outcome {
         [[7.0, 8.0], [5.0, 5.0]],
     ])?;
     let options = BuildOptions { leaf_size: 1, ..BuildOptions::for_strategy(Strategy::Middle) };
-    let scene = Scene::build(walls, &options)?;
+    let scene = ShapeScene::build(walls, &options)?;
     for (origin, direction) in [([-2.0, 2.0], [1.0, 0.0]), ([9.0, 7.0], [-1.0, -1.0])] {
         let mut recorder = StepRecorder::default();
         let ray = Ray::new(origin, direction);

@@ -4,7 +4,7 @@
 //! `cargo run --release -p kdray --example own_shape`
 
 use kdray::primitives::{HitRule, Intersect, Primitives};
-use kdray::{Aabb, BuildOptions, Hit, Ray, Scene, Side};
+use kdray::{Aabb, BuildOptions, Hit, Ray, ShapeScene, Side};
 use std::io::{self, Write};
 
 /// A column: its axis is parallel to y, and its shaft, without top and bottom, is what rays meet.
@@ -66,7 +66,7 @@ fn hall() -> Columns {
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let scene = Scene::build(hall(), &BuildOptions::default())?;
+    let scene = ShapeScene::build(hall(), &BuildOptions::default())?;
     let mut out = io::stdout().lock();
     let stats = scene.tree().stats(scene.primitives().count(), &BuildOptions::default().cost);
     writeln!(out, "16 columns, {} nodes, {} levels deep", stats.nodes, stats.max_depth)?;
@@ -91,7 +91,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
 /// One character of the picture: the nearest column, by how far away it is, and dark where the
 /// lamp does not reach it.
-fn shade(scene: &Scene<Columns>, eye: [f64; 3], light: [f64; 3], column: i32, row: i32) -> char {
+fn shade(
+    scene: &ShapeScene<Columns>,
+    eye: [f64; 3],
+    light: [f64; 3],
+    column: i32,
+    row: i32,
+) -> char {
     let (x, y) = (f64::from(column) / 36.0 - 1.0, 1.0 - f64::from(row) / 12.0);
     let ray = Ray::new(eye, [0.8 * x, 0.5 * y + 0.1, 1.0]);
     let Some(hit) = scene.closest_hit(&ray) else { return ' ' };

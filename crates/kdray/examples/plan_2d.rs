@@ -4,7 +4,7 @@
 //! `cargo run --release -p kdray --example plan_2d`
 
 use kdray::primitives::Segments;
-use kdray::{BuildOptions, Ray, Scene};
+use kdray::{BuildOptions, Ray, ShapeScene};
 use std::io::{self, Write};
 
 /// The rooms of a flat, 16 m by 8 m, with doors left open.
@@ -28,7 +28,7 @@ const WALLS: [[[f32; 2]; 2]; 12] = [
 ];
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let scene = Scene::build(Segments::new(WALLS.to_vec())?, &BuildOptions::default())?;
+    let scene = ShapeScene::build(Segments::new(WALLS.to_vec())?, &BuildOptions::default())?;
     let mut out = io::stdout().lock();
     let observer = [7.0, 2.25];
     writeln!(out, "What is seen (.) from E, and what is not (blank):")?;
@@ -61,7 +61,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
 /// What stands in the plan at a place: a wall, the observer, a place that is seen, or one that is
 /// not, since some wall lies between.
-fn symbol(scene: &Scene<Segments, 2>, observer: [f64; 2], column: i32, y: f64) -> char {
+fn symbol(scene: &ShapeScene<Segments, 2>, observer: [f64; 2], column: i32, y: f64) -> char {
     let x = (f64::from(column) + 0.5) / 4.0;
     // A cross of two short rays over the character's cell tells whether a wall passes it.
     let across = Ray::new([x - 0.125, y], [0.25, 0.0]).with_interval(0.0, 1.0);

@@ -8,15 +8,18 @@
 pub mod build;
 pub mod exact;
 pub mod geometry;
+pub mod layout;
 pub mod primitives;
 pub mod query;
+pub mod simd;
 pub mod traverse;
 pub mod tree;
 
 pub use build::{BuildError, BuildOptions, BuildProgress, CostModel, Strategy};
 pub use geometry::{Aabb, Interval, Ray, RayError};
 pub use primitives::{Hit, MeshError, Side, TriangleMesh};
-pub use query::Scene;
+pub use query::{Arithmetic, Scene, ShapeScene};
+pub use simd::InstructionSet;
 pub use tree::{KdTree, TreeStats};
 
 /// The README's example, compiled and run as a test.

@@ -113,7 +113,7 @@ fn write_slice(
     let slice = Slice { section, depth, window: args.window, title: &title };
     let room = [args.view.size.width as f64, args.view.size.height as f64];
     let corner = |p: [f32; 3]| p.map(|x| readable(x.into())).join(", ");
-    let Some((canvas, figures)) = draw_slice(world.scene(), &slice, room) else {
+    let Some((canvas, figures)) = draw_slice(world.scene().shapes(), &slice, room) else {
         return Err(CliError::Usage(format!(
             "--slice {name}={value}: nothing of the scene is there; its box goes from ({}) to \
              ({}): choose a value, and a --window, within",
@@ -145,7 +145,7 @@ fn write_wireframe(
         args.build.split.name()
     );
     let canvas = draw_wireframe(&Wireframe {
-        scene: world.scene(),
+        scene: world.scene().shapes(),
         camera: &camera,
         render: &render,
         size: [args.view.size.width as f64, args.view.size.height as f64],

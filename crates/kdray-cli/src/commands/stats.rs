@@ -8,7 +8,7 @@ use crate::{
     load, output,
     table::{columns, print_json},
 };
-use kdray::{Scene, TreeStats};
+use kdray::{ShapeScene, TreeStats};
 use serde::Serialize;
 
 /// Characters of the longest bar of the histogram.
@@ -53,7 +53,7 @@ struct Figures {
 /// Builds the tree and measures it.
 pub(crate) fn run(args: &Args, globals: &Globals) -> Result<(), CliError> {
     let mesh = load::mesh(&args.scene, globals)?;
-    let scene = build::scene(mesh, &args.build, globals)?;
+    let scene = build::shapes(mesh, &args.build, globals)?;
     let figures = Figures::of(&scene, &args.build);
     if args.table.json {
         return print_json(&figures);
@@ -63,7 +63,7 @@ pub(crate) fn run(args: &Args, globals: &Globals) -> Result<(), CliError> {
 }
 
 impl Figures {
-    fn of(scene: &Scene, args: &BuildArgs) -> Self {
+    fn of(scene: &ShapeScene, args: &BuildArgs) -> Self {
         let (mesh, bounds) = (scene.primitives(), scene.tree().bounds());
         let triangles = mesh.triangles().len();
         let stats: TreeStats = scene.tree().stats(triangles, &args.options().cost);

@@ -62,7 +62,7 @@ pub(crate) fn run(args: &Args, globals: &Globals) -> Result<(), CliError> {
     let model = load::model(&args.scene, globals)?;
     let world = build::world(model, &args.build, globals)?;
     let ray = ray(args, &world)?;
-    let scene = world.scene();
+    let scene = world.scene().shapes();
     let mut recorder = StepRecorder::default();
     let hit = scene.closest_hit_traced(&ray, &mut recorder);
     let steps = recorder.steps;

@@ -9,7 +9,7 @@ use super::legend::{self, Entry};
 use super::panel::{Panel, Rect};
 use super::slice::{across_name, cut_triangles, frame};
 use super::{Section, palette, t_diagram};
-use kdray::{Hit, Ray, Scene, traverse::Step};
+use kdray::{Hit, Ray, ShapeScene, traverse::Step};
 use marks::marks_along_ray;
 use path::{Path, PathSplit};
 use svg::node::element::Group;
@@ -18,7 +18,7 @@ use views::{View, views};
 /// What the picture shows.
 pub(crate) struct RayPath<'a> {
     /// Triangles and tree.
-    pub(crate) scene: &'a Scene,
+    pub(crate) scene: &'a ShapeScene,
     /// The ray.
     pub(crate) ray: &'a Ray,
     /// All that happened.

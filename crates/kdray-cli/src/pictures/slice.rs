@@ -5,7 +5,7 @@ use super::legend::{self, Entry};
 use super::panel::{Panel, Rect};
 use super::section::SplitLine;
 use super::{Section, palette};
-use kdray::{Scene, primitives::Primitives};
+use kdray::{ShapeScene, primitives::Primitives};
 use std::collections::BTreeMap;
 use svg::node::element::Group;
 
@@ -36,7 +36,7 @@ const TOP: f64 = 48.0;
 /// Draws the slice with everything in `room` pixels, but for scale and legend; `None` if the
 /// plane, or the window in it, does not meet the tree's box.
 pub(crate) fn draw_slice(
-    scene: &Scene,
+    scene: &ShapeScene,
     slice: &Slice<'_>,
     room: [f64; 2],
 ) -> Option<(Canvas, SliceFigures)> {
@@ -82,7 +82,7 @@ pub(crate) fn draw_slice(
 }
 
 /// The lines in which the section cuts the triangles.
-pub(super) fn cut_triangles(scene: &Scene, section: &Section) -> Vec<[[f64; 2]; 2]> {
+pub(super) fn cut_triangles(scene: &ShapeScene, section: &Section) -> Vec<[[f64; 2]; 2]> {
     let mesh = scene.primitives();
     (0..mesh.count() as u32).filter_map(|id| section.triangle(&mesh.corners(id))).collect()
 }

@@ -6,7 +6,7 @@ use super::palette;
 use super::projector::Projector;
 use base64::{Engine, prelude::BASE64_STANDARD};
 use glam::DVec3;
-use kdray::{Aabb, Ray, Scene, tree::NodeKind};
+use kdray::{Aabb, Ray, ShapeScene, tree::NodeKind};
 use kdray_scene::Camera;
 use rayon::prelude::*;
 use std::{borrow::Cow, collections::BTreeMap};
@@ -15,7 +15,7 @@ use svg::node::element::{Group, Image};
 /// What the picture shows.
 pub(crate) struct Wireframe<'a> {
     /// Triangles and tree.
-    pub(crate) scene: &'a Scene,
+    pub(crate) scene: &'a ShapeScene,
     /// From where.
     pub(crate) camera: &'a Camera,
     /// The scene as the camera sees it, as a PNG of `size` pixels.
@@ -106,7 +106,7 @@ fn color(it: &Wireframe<'_>, plane: Option<(usize, u32)>) -> Cow<'static, str> {
 }
 
 /// The twelve edges of the root's box, and the outlines of the planes above `max_depth`.
-fn edges(scene: &Scene, max_depth: u32) -> Vec<Edge> {
+fn edges(scene: &ShapeScene, max_depth: u32) -> Vec<Edge> {
     let tree = scene.tree();
     let mut edges = box_edges(tree.bounds(), None);
     for cell in tree.cells().filter(|cell| cell.depth < max_depth) {

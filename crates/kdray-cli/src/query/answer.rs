@@ -61,7 +61,7 @@ impl Answerer {
 
     fn mesh(&self) -> &TriangleMesh {
         match self {
-            Self::Tree(scene) => scene.primitives(),
+            Self::Tree(scene) => scene.mesh(),
             Self::Naive(mesh, _) => mesh,
         }
     }

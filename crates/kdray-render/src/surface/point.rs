@@ -31,7 +31,7 @@ pub(crate) struct Surface<'a> {
 impl<'a> Surface<'a> {
     /// What `ray` found at `hit`.
     pub(crate) fn new(world: &'a World, ray: &Ray, hit: &Hit) -> Self {
-        let at = HitPoint::new(world.scene().primitives(), ray, hit);
+        let at = HitPoint::new(world.scene().mesh(), ray, hit);
         let facing = at.facing;
         let viewer = -DVec3::from(ray.direction).normalize();
         let normal = shading_normal(world, hit).map_or(facing, |n| turned(n, facing, viewer));

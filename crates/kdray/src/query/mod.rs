@@ -1,5 +1,9 @@
-//! The public face: a scene that answers queries.
+//! The public face: scenes that answer queries.
 
+mod arithmetic;
 mod scene;
+mod shape_scene;
 
+pub use arithmetic::Arithmetic;
 pub use scene::Scene;
+pub use shape_scene::ShapeScene;

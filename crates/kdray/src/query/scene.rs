@@ -1,13 +1,17 @@
-//! Primitives with a tree over them.
+//! Triangles with their trees.
 
+use super::{Arithmetic, ShapeScene};
 use crate::build::{BuildError, BuildOptions, BuildProgress};
-use crate::geometry::{Aabb, Ray};
-use crate::primitives::{Hit, HitRule, Intersect, TriangleMesh};
-use crate::traverse::{self, AllHits, Naive, Trace};
+use crate::geometry::Ray;
+use crate::layout::WideTree;
+use crate::primitives::{Hit, TriangleMesh};
+use crate::simd::InstructionSet;
+use crate::traverse::AllHits;
+use crate::traverse::wide::{AnyHit, ClosestHit, NoAim};
 use crate::tree::KdTree;
 use std::ops::ControlFlow;
 
-/// Primitives with a kd-tree over them, ready for queries from any thread.
+/// A triangle mesh with a kd-tree over it, ready for queries from any thread.
 ///
 /// A ray that [`Ray::check`] refuses hits nothing.
 ///
@@ -24,109 +28,129 @@ use std::ops::ControlFlow;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Scene<P = TriangleMesh, const K: usize = 3> {
-    primitives: P,
-    tree: KdTree<K>,
+pub struct Scene {
+    shapes: ShapeScene<TriangleMesh>,
+    wide: Option<WideTree>,
+    arithmetic: Arithmetic,
+    instructions: InstructionSet,
 }
 
-impl<P: Intersect<K>, const K: usize> Scene<P, K> {
-    /// Builds a tree over `primitives`.
+impl Scene {
+    /// Builds the trees over `mesh`.
     ///
     /// # Errors
     /// See [`BuildError`].
-    pub fn build(primitives: P, options: &BuildOptions) -> Result<Self, BuildError> {
-        Self::build_with_progress(primitives, options, &|_| ControlFlow::Continue(()))
+    pub fn build(mesh: TriangleMesh, options: &BuildOptions) -> Result<Self, BuildError> {
+        Self::build_with_progress(mesh, options, &|_| ControlFlow::Continue(()))
     }
 
-    /// Builds a tree over `primitives`, tells `progress` how far it is, and stops if that answers
+    /// Builds the trees over `mesh`, tells `progress` how far it is, and stops if that answers
     /// [`ControlFlow::Break`].
     ///
     /// # Errors
     /// See [`BuildError`].
     pub fn build_with_progress(
-        primitives: P,
+        mesh: TriangleMesh,
         options: &BuildOptions,
         progress: &(dyn Fn(BuildProgress) -> ControlFlow<()> + Sync),
     ) -> Result<Self, BuildError> {
-        let tree = KdTree::build_with_progress(&primitives, options, progress)?;
-        Ok(Self { primitives, tree })
+        let shapes = ShapeScene::build_with_progress(mesh, options, progress)?;
+        let wide = WideTree::new(shapes.tree(), shapes.primitives());
+        let (arithmetic, instructions) = (Arithmetic::default(), InstructionSet::best());
+        Ok(Self { shapes, wide, arithmetic, instructions })
+    }
+
+    /// The same scene, with hits decided by `arithmetic`.
+    #[must_use]
+    pub fn with_arithmetic(self, arithmetic: Arithmetic) -> Self {
+        Self { arithmetic, ..self }
+    }
+
+    /// The same scene, with kernels of another instruction set than the best.
+    #[must_use]
+    pub fn with_instructions(self, instructions: InstructionSet) -> Self {
+        Self { instructions, ..self }
     }
 
     /// What rays are tested against.
-    pub fn primitives(&self) -> &P {
-        &self.primitives
+    pub fn mesh(&self) -> &TriangleMesh {
+        self.shapes.primitives()
     }
 
-    /// Gives the primitives back.
-    pub fn into_primitives(self) -> P {
-        self.primitives
+    /// Gives the mesh back.
+    pub fn into_mesh(self) -> TriangleMesh {
+        self.shapes.into_primitives()
     }
 
-    /// The tree.
-    pub fn tree(&self) -> &KdTree<K> {
-        &self.tree
+    /// The canonical tree.
+    pub fn tree(&self) -> &KdTree {
+        self.shapes.tree()
     }
 
-    /// The same queries without the tree.
-    pub fn naive(&self) -> Naive<'_, P, Aabb<K>> {
-        Naive::new(&self.primitives, *self.tree.bounds())
+    /// The wide tree, unless the mesh is out of its range: see [`WideTree::new`].
+    pub fn wide_tree(&self) -> Option<&WideTree> {
+        self.wide.as_ref()
+    }
+
+    /// The same mesh and canonical tree with the scalar traversal, which can be watched.
+    pub fn shapes(&self) -> &ShapeScene<TriangleMesh> {
+        &self.shapes
     }
 
     /// The hit of least t; of several at the same t, the one of the smallest primitive id.
     #[must_use]
-    pub fn closest_hit(&self, ray: &Ray<K>) -> Option<Hit> {
-        self.closest_hit_traced(ray, &mut ())
-    }
-
-    /// [`closest_hit`](Self::closest_hit), watched by `trace`.
-    pub fn closest_hit_traced(&self, ray: &Ray<K>, trace: &mut impl Trace) -> Option<Hit> {
-        traverse::closest_hit(&self.tree, &self.primitives, ray, trace)
+    pub fn closest_hit(&self, ray: &Ray) -> Option<Hit> {
+        let Some(tree) = &self.wide else { return self.shapes.closest_hit(ray) };
+        let found = match self.arithmetic {
+            Arithmetic::Exact => self.instructions.run(ClosestHit::<true> { tree, ray }),
+            Arithmetic::Float => self.instructions.run(ClosestHit::<false> { tree, ray }),
+        };
+        match found {
+            Ok(hit) => hit,
+            Err(NoAim::Missed) => None,
+            Err(NoAim::OutOfRange) => self.shapes.closest_hit(ray),
+        }
     }
 
     /// Whether there is any hit: whether `ray.interval` is occluded.
     #[must_use]
-    pub fn any_hit(&self, ray: &Ray<K>) -> bool {
-        self.any_hit_traced(ray, &mut ())
-    }
-
-    /// [`any_hit`](Self::any_hit), watched by `trace`.
-    pub fn any_hit_traced(&self, ray: &Ray<K>, trace: &mut impl Trace) -> bool {
-        traverse::any_hit(&self.tree, &self.primitives, ray, trace).is_some()
+    pub fn any_hit(&self, ray: &Ray) -> bool {
+        let Some(tree) = &self.wide else { return self.shapes.any_hit(ray) };
+        let found = match self.arithmetic {
+            Arithmetic::Exact => self.instructions.run(AnyHit::<true> { tree, ray }),
+            Arithmetic::Float => self.instructions.run(AnyHit::<false> { tree, ray }),
+        };
+        match found {
+            Ok(is_hit) => is_hit,
+            Err(NoAim::Missed) => false,
+            Err(NoAim::OutOfRange) => self.shapes.any_hit(ray),
+        }
     }
 
     /// What [`any_hit`](Self::any_hit) found: some hit, not necessarily the first, but the same
     /// one on every run.
     #[must_use]
-    pub fn occluder(&self, ray: &Ray<K>) -> Option<Hit> {
-        traverse::any_hit(&self.tree, &self.primitives, ray, &mut ())
+    pub fn occluder(&self, ray: &Ray) -> Option<Hit> {
+        self.shapes.occluder(ray)
     }
 
-    /// Every crossing of a surface, once, by rising t ([`HitRule::Crossing`]), found as they are
-    /// asked for.
-    pub fn all_hits(&self, ray: &Ray<K>) -> AllHits<'_, P, K> {
-        self.all_hits_traced(ray, HitRule::Crossing, ())
+    /// Every crossing of a surface, once, by rising t
+    /// ([`HitRule::Crossing`](crate::primitives::HitRule::Crossing)), found as they are asked for.
+    pub fn all_hits(&self, ray: &Ray) -> AllHits<'_, TriangleMesh, 3> {
+        self.shapes.all_hits(ray)
     }
 
-    /// Every primitive that the ray touches, by rising t ([`HitRule::Touching`]): on a shared edge
-    /// each of its primitives.
-    pub fn all_touched(&self, ray: &Ray<K>) -> AllHits<'_, P, K> {
-        self.all_hits_traced(ray, HitRule::Touching, ())
-    }
-
-    /// All hits that count by `rule`, watched by `trace`.
-    pub fn all_hits_traced<T: Trace>(
-        &self,
-        ray: &Ray<K>,
-        rule: HitRule,
-        trace: T,
-    ) -> AllHits<'_, P, K, T> {
-        AllHits::new(&self.tree, &self.primitives, ray, rule, trace)
+    /// Every triangle that the ray touches, by rising t
+    /// ([`HitRule::Touching`](crate::primitives::HitRule::Touching)): on a shared edge each of its
+    /// triangles.
+    pub fn all_touched(&self, ray: &Ray) -> AllHits<'_, TriangleMesh, 3> {
+        self.shapes.all_touched(ray)
     }
 
     /// How many surfaces the ray crosses: the number of [`all_hits`](Self::all_hits). On a closed
     /// mesh it is even for a ray from outside without end, and odd for one from inside.
     #[must_use]
-    pub fn count(&self, ray: &Ray<K>) -> usize {
-        self.all_hits(ray).count()
+    pub fn count(&self, ray: &Ray) -> usize {
+        self.shapes.count(ray)
     }
 }

@@ -10,6 +10,7 @@ mod closest;
 mod leaf_walk;
 mod naive;
 mod trace;
+pub(crate) mod wide;
 
 pub use all_hits::AllHits;
 pub use closest::{any_hit, closest_hit};

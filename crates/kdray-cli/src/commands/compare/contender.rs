@@ -3,7 +3,7 @@
 use super::Args;
 use super::measure::Figures;
 use crate::{cli::Globals, error::CliError, interrupt, progress};
-use kdray::{Aabb, Scene, Strategy, TreeStats, TriangleMesh};
+use kdray::{Aabb, ShapeScene, Strategy, TreeStats, TriangleMesh};
 use std::time::{Duration, Instant};
 
 /// Builds that took less than this are repeated, so that their time can be trusted.
@@ -24,7 +24,7 @@ pub(super) enum Kind<'a> {
     /// Through a tree.
     Tree {
         /// The triangles and the tree.
-        scene: Box<Scene>,
+        scene: Box<ShapeScene>,
         /// The tree's figures.
         stats: TreeStats,
         /// The median time of a build, in seconds.
@@ -68,7 +68,7 @@ fn build<'a>(
     loop {
         let copy = mesh.clone();
         let start = Instant::now();
-        scene = Scene::build_with_progress(copy, &options, &|_| interrupt::flow())?;
+        scene = ShapeScene::build_with_progress(copy, &options, &|_| interrupt::flow())?;
         took = start.elapsed();
         seconds.push(took.as_secs_f64());
         if took >= SHORT_BUILD || seconds.len() >= args.rounds as usize {
@@ -84,7 +84,7 @@ fn build<'a>(
 
 impl<'a> Contenders<'a> {
     /// The scene with the SAH tree, which finds where secondary rays start.
-    pub(super) fn best(&self) -> Option<&Scene> {
+    pub(super) fn best(&self) -> Option<&ShapeScene> {
         self.list.iter().rev().find_map(|contender| match &contender.kind {
             Kind::Tree { scene, .. } => Some(&**scene),
             Kind::Naive { .. } => None,

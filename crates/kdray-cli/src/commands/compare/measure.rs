@@ -6,7 +6,7 @@ use super::counted::Counted;
 use super::rays::{RaySet, RaySets};
 use crate::{cli::Globals, error::CliError, interrupt, progress::Progress};
 use kdray::{
-    Aabb, Hit, Ray, Scene, TriangleMesh,
+    Aabb, Hit, Ray, ShapeScene, TriangleMesh,
     primitives::Primitives,
     traverse::{Counters, Naive},
 };
@@ -131,7 +131,7 @@ fn answer(contender: &Contender<'_>, set: &RaySet, rounds: u32) -> Figures {
     }
 }
 
-fn by_tree(scene: &Scene, set: &RaySet) -> Figures {
+fn by_tree(scene: &ShapeScene, set: &RaySet) -> Figures {
     let ask = |ray| {
         let mut counters = Counters::default();
         let answer = match set.any {

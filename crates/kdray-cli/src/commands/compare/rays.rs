@@ -3,7 +3,7 @@
 use super::Args;
 use crate::error::CliError;
 use glam::DVec3;
-use kdray::{Aabb, Ray, Scene};
+use kdray::{Aabb, Ray, ShapeScene};
 use kdray_render::{HitPoint, RenderError, View, default_lights};
 use kdray_scene::{Light, Model};
 use rand::{RngExt, SeedableRng};
@@ -29,7 +29,11 @@ pub(super) struct RaySets {
 
 impl RaySets {
     /// The rays for a camera and the first light, as far as `scene` is hit.
-    pub(super) fn new(args: &Args, model: &Model, scene: Option<&Scene>) -> Result<Self, CliError> {
+    pub(super) fn new(
+        args: &Args,
+        model: &Model,
+        scene: Option<&ShapeScene>,
+    ) -> Result<Self, CliError> {
         let empty = Aabb::EMPTY;
         let bounds = scene.map_or(&empty, |scene| scene.tree().bounds());
         let camera = args.view.camera(model, bounds)?;
@@ -67,7 +71,7 @@ fn primary(view: &View, [width, height]: [usize; 2]) -> Vec<Ray> {
 }
 
 /// Where the rays hit.
-fn places(scene: &Scene, rays: &[Ray]) -> Vec<HitPoint> {
+fn places(scene: &ShapeScene, rays: &[Ray]) -> Vec<HitPoint> {
     let place = |ray| Some(HitPoint::new(scene.primitives(), ray, &scene.closest_hit(ray)?));
     rays.iter().filter_map(place).collect()
 }
@@ -118,7 +122,7 @@ mod tests {
         // Far from the origin and slanted, so that points are rounded.
         let corners = [[1000.1, 0.3, 7.7], [1003.2, 0.9, 8.1], [1001.3, 2.7, 6.3]];
         let mesh = TriangleMesh::from_soup([corners]).unwrap();
-        let scene = Scene::build(mesh, &BuildOptions::default()).unwrap();
+        let scene = ShapeScene::build(mesh, &BuildOptions::default()).unwrap();
         let eye = [1000.0, 1.0, 0.0];
         let mut places = Vec::new();
         for i in 0..200 {

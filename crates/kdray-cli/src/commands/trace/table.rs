@@ -5,7 +5,7 @@ use crate::{
     table::columns,
 };
 use kdray::{
-    Hit, Ray, Scene, Side,
+    Hit, Ray, ShapeScene, Side,
     traverse::{SplitStep, Step, TraversalCase},
 };
 use serde_json::{Value, json};
@@ -23,7 +23,7 @@ fn case_words(step: &SplitStep) -> &'static str {
 }
 
 /// The steps for people.
-pub(super) fn text(scene: &Scene, ray: &Ray, steps: &[Step], hit: Option<Hit>) -> String {
+pub(super) fn text(scene: &ShapeScene, ray: &Ray, steps: &[Step], hit: Option<Hit>) -> String {
     let point = |p: [f64; 3]| p.map(readable).join(", ");
     let mut text = format!("ray    E = ({}), D = ({})\n", point(ray.origin), point(ray.direction));
     let bounds = scene.tree().bounds();
@@ -135,7 +135,7 @@ fn side(side: Side) -> &'static str {
 
 /// The steps for programs. Numbers that JSON has no words for, such as the t_split of a parallel
 /// ray, are null.
-pub(super) fn json(scene: &Scene, ray: &Ray, steps: &[Step], hit: Option<Hit>) -> Value {
+pub(super) fn json(scene: &ShapeScene, ray: &Ray, steps: &[Step], hit: Option<Hit>) -> Value {
     let bounds = scene.tree().bounds();
     json!({
         "ray": { "origin": ray.origin, "direction": ray.direction },

@@ -4,7 +4,7 @@ use super::super::t_diagram::{Bar, Fate};
 use super::super::{counted, readable};
 use kdray::tree::{Cell, NodeKind};
 use kdray::{
-    Hit, Scene,
+    Hit, ShapeScene,
     traverse::{Step, TraversalCase},
 };
 use std::collections::{HashMap, HashSet};
@@ -26,7 +26,7 @@ pub(super) struct PathSplit {
 }
 
 impl Path {
-    pub(super) fn new(scene: &Scene, steps: &[Step]) -> Self {
+    pub(super) fn new(scene: &ShapeScene, steps: &[Step]) -> Self {
         let cells = cells_of(scene, steps);
         let mut path = Self {
             splits: Vec::new(),
@@ -93,7 +93,7 @@ impl Path {
 }
 
 /// The cells of the nodes that the steps name, and of their children.
-fn cells_of(scene: &Scene, steps: &[Step]) -> HashMap<u32, Cell<3>> {
+fn cells_of(scene: &ShapeScene, steps: &[Step]) -> HashMap<u32, Cell<3>> {
     let tree = scene.tree();
     let mut cells = HashMap::new();
     cells.insert(0, Cell { node: 0, depth: 0, bounds: *tree.bounds() });

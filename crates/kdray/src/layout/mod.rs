@@ -1,0 +1,17 @@
+//! Forms of the tree that are fast to traverse, derived from the canonical one.
+//!
+//! [`WideTree`] collapses some three levels of the kd-tree into a node of eight children with tight
+//! boxes, and puts copies of the triangles next to them, eight to a block.
+
+mod arena;
+mod block;
+mod collapse;
+mod node;
+mod tight;
+mod wide;
+
+pub(crate) use arena::Link;
+pub(crate) use block::TriangleBlock;
+pub(crate) use node::{PlaneRows, WideNode};
+pub(crate) use wide::STACK_SIZE;
+pub use wide::WideTree;

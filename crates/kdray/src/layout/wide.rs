@@ -1,0 +1,144 @@
+//! The wide tree.
+
+use super::arena::{Arena, Link};
+use super::collapse::Treelet;
+use super::tight::tight_boxes;
+use super::{TriangleBlock, WideNode};
+use crate::geometry::Aabb;
+use crate::primitives::TriangleMesh;
+use crate::tree::{KdTree, NodeKind};
+
+/// Room on the kernels' stacks. A tree that needs more is not made wide.
+pub(crate) const STACK_SIZE: usize = 128;
+
+/// Half the distance from 1 to the next f32.
+const ROUNDING: f32 = f32::EPSILON / 2.0;
+
+/// A kd-tree with eight children a node and copies of the triangles, eight to a block, in one piece
+/// of memory: what single rays and batches are fastest on.
+///
+/// A child's box is the tight one of what lies in its cell, moved outward by what rounding in f32
+/// may do to the slab test, for rays that start within [`reach`](Self::reach). Leaves hold the
+/// same triangles as those of the canonical tree.
+#[derive(Clone, Debug)]
+pub struct WideTree {
+    arena: Arena,
+    reach: f32,
+}
+
+/// What is known of a subtree once it is placed.
+struct Placed {
+    link: Link,
+    /// How many places on a traversal's stack it needs.
+    stack: usize,
+}
+
+struct Placer<'a> {
+    mesh: &'a TriangleMesh,
+    tree: &'a KdTree<3>,
+    boxes: Vec<Aabb<3>>,
+    pad: f64,
+    arena: Arena,
+}
+
+impl WideTree {
+    /// The wide form of `tree`, which is one over `mesh`. `None` if the kernels' numbers, f32,
+    /// cannot hold it: if the mesh is larger than 2^32 or smaller than 2^-32, or the tree is larger
+    /// than 16 GiB or degenerate.
+    pub fn new(tree: &KdTree<3>, mesh: &TriangleMesh) -> Option<Self> {
+        let reach = reach(tree.bounds())?;
+        let pad = f64::from(12.0 * ROUNDING * reach);
+        let boxes = tight_boxes(tree, mesh);
+        let mut placer = Placer { mesh, tree, boxes, pad, arena: Arena::default() };
+        let root = placer.place_node(0)?;
+        placer.arena.shrink_to_fit();
+        let fits = root.link == Link::ROOT && root.stack + WideNode::WIDTH <= STACK_SIZE;
+        fits.then_some(Self { arena: placer.arena, reach })
+    }
+
+    /// How far from zero, on any axis, a ray may start so that the boxes' margins cover what
+    /// rounding does: as far as the mesh, and four times its extent.
+    pub fn reach(&self) -> f32 {
+        self.reach
+    }
+
+    /// How much memory the tree takes, in bytes.
+    pub fn bytes(&self) -> usize {
+        self.arena.bytes()
+    }
+
+    #[inline(always)]
+    pub(crate) fn node(&self, link: Link) -> &WideNode {
+        self.arena.node(link)
+    }
+
+    #[inline(always)]
+    pub(crate) fn block(&self, link: Link, index: usize) -> &TriangleBlock {
+        self.arena.block(link, index)
+    }
+}
+
+/// See [`WideTree::reach`]; `None` if it is out of range.
+fn reach(bounds: &Aabb<3>) -> Option<f32> {
+    const LARGEST: f64 = (1_u64 << 32) as f64;
+    let corners = bounds.min.iter().chain(&bounds.max);
+    let farthest = corners.fold(0.0_f32, |most, x| most.max(x.abs()));
+    let extent = bounds.extent().into_iter().fold(0.0, f64::max);
+    let reach = f64::from(farthest) + 4.0 * extent;
+    (!bounds.is_empty() && reach < LARGEST && reach > 1.0 / LARGEST).then_some(reach as f32)
+}
+
+impl Placer<'_> {
+    /// Places a node of the binary tree as a wide one, then all below it.
+    fn place_node(&mut self, root: u32) -> Option<Placed> {
+        let treelet = Treelet::new(self.tree, &self.boxes, root);
+        let link = self.arena.reserve_node();
+        let mut node = WideNode::EMPTY;
+        for octant in 0..8 {
+            node.set_order(octant, &treelet.far_to_near(octant));
+        }
+        let mut stack = 0;
+        for (place, &end) in treelet.ends.iter().enumerate() {
+            let bounds = self.padded(&self.boxes[end as usize]);
+            let child = match self.tree.nodes()[end as usize].kind() {
+                NodeKind::Leaf { .. } => self.place_leaf(self.tree.leaf_primitives(end), &bounds),
+                NodeKind::Inner { .. } => self.place_node(end)?,
+            };
+            node.set_child(place, &bounds, child.link);
+            stack = stack.max(child.stack);
+        }
+        self.arena.set_node(link, node);
+        let stack = stack + treelet.ends.len().saturating_sub(1);
+        (!self.arena.is_full()).then_some(Placed { link, stack })
+    }
+
+    /// Places the triangles of a leaf; too many for one link below a node of their own.
+    fn place_leaf(&mut self, ids: &[u32], bounds: &Aabb<3>) -> Placed {
+        const MOST: usize = Link::MOST_BLOCKS * TriangleBlock::WIDTH;
+        if ids.len() <= MOST {
+            let triangle = |&id: &u32| (id, self.mesh.corners(id));
+            let blocks = ids.chunks(TriangleBlock::WIDTH);
+            let blocks = blocks.map(|ids| TriangleBlock::new(ids.iter().map(triangle)));
+            return Placed { link: self.arena.push_leaf(blocks), stack: 0 };
+        }
+        let link = self.arena.reserve_node();
+        let mut node = WideNode::EMPTY;
+        let mut stack = 0;
+        let part = ids.len().div_ceil(MOST).div_ceil(WideNode::WIDTH) * MOST;
+        for (place, ids) in ids.chunks(part).enumerate() {
+            let child = self.place_leaf(ids, bounds);
+            node.set_child(place, bounds, child.link);
+            stack = stack.max(child.stack);
+        }
+        self.arena.set_node(link, node);
+        Placed { link, stack: stack + WideNode::WIDTH - 1 }
+    }
+
+    /// Moves the faces outward by the pad at least.
+    fn padded(&self, bounds: &Aabb<3>) -> Aabb<3> {
+        Aabb {
+            min: bounds.min.map(|x| ((f64::from(x) - self.pad) as f32).next_down()),
+            max: bounds.max.map(|x| ((f64::from(x) + self.pad) as f32).next_up()),
+        }
+    }
+}

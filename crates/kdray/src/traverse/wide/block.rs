@@ -1,0 +1,117 @@
+//! The triangle test on eight triangles at once.
+
+use super::aim::Aim;
+use super::lanes::{RayLanes, cross, difference, dot, largest};
+use crate::layout::TriangleBlock;
+use crate::simd::Lanes;
+use fearless_simd::prelude::*;
+use fearless_simd::{f32x8, mask32x8};
+
+/// Half the distance from 1 to the next f32.
+const ROUNDING: f32 = f32::EPSILON / 2.0;
+
+/// See [`error_bounds`].
+pub(super) const EDGE_ERROR: f32 = 44.0 * ROUNDING;
+const VOLUME_ERROR: f32 = 64.0 * ROUNDING;
+pub(super) const T_ERROR: f32 = 40.0 * ROUNDING;
+const UNDERFLOW: f32 = f32::MIN_POSITIVE * (1 << 14) as f32;
+
+/// Möller and Trumbore's numbers (1997) of eight triangles, with the sign of den taken out: a ray
+/// hits where U, V and W are not negative, at t = T / den.
+#[derive(Clone, Copy)]
+pub(super) struct BlockTest<S: Lanes> {
+    pub(super) u: f32x8<S>,
+    pub(super) v: f32x8<S>,
+    pub(super) w: f32x8<S>,
+    /// T, six times the volume of the triangle and the origin.
+    pub(super) volume: f32x8<S>,
+    pub(super) den: f32x8<S>,
+    /// den with its sign: positive where the front is seen.
+    pub(super) facing: f32x8<S>,
+    /// How far U, V and W may be off.
+    edge_error: f32x8<S>,
+    /// How far T − t · den may be off for t = t_near, and for t = t_far.
+    near_error: f32x8<S>,
+    far_error: f32x8<S>,
+}
+
+impl<S: Lanes> BlockTest<S> {
+    /// The error bounds are only right if EXACT; otherwise zero.
+    #[inline(always)]
+    pub(super) fn new<const EXACT: bool>(
+        simd: S,
+        block: &TriangleBlock,
+        aim: &Aim,
+        ray: &RayLanes<S>,
+    ) -> Self {
+        let corner =
+            |i: usize| [0, 1, 2].map(|axis| f32x8::load_array_ref(simd, block.corner(i, axis)));
+        let a = corner(0);
+        let (e1, e2) = (difference(corner(1), a), difference(corner(2), a));
+        let s = difference(ray.origin, a);
+        let p = cross(ray.direction, e2);
+        let q = cross(s, e1);
+        let (den, u, v, volume) = (dot(p, e1), dot(p, s), dot(q, ray.direction), dot(q, e2));
+        let w = den - u - v;
+        let [edge_error, near_error, far_error] = if EXACT {
+            error_bounds(simd, aim, ray, [largest(e1).max(largest(e2)), largest(s)])
+        } else {
+            [f32x8::splat(simd, 0.0); 3]
+        };
+        let signed = |x: f32x8<S>| flip_sign(x, den);
+        let (u, v, w, volume) = (signed(u), signed(v), signed(w), signed(volume));
+        Self { u, v, w, volume, den: den.abs(), facing: den, edge_error, near_error, far_error }
+    }
+
+    /// The lanes that may be hit within the ray's interval.
+    #[inline(always)]
+    pub(super) fn candidates(&self, ray: &RayLanes<S>) -> mask32x8<S> {
+        let inside = (self.u.min(self.v).min(self.w) + self.edge_error).simd_ge(0.0);
+        let behind = self.den.mul_sub(ray.t_near, self.near_error).simd_le(self.volume);
+        let before = self.den.mul_add(ray.t_far, self.far_error).simd_ge(self.volume);
+        inside & behind & before
+    }
+
+    /// The lanes that are surely hit within the ray's interval.
+    #[inline(always)]
+    pub(super) fn sure(&self, ray: &RayLanes<S>) -> mask32x8<S> {
+        let inside = (self.u.min(self.v).min(self.w) - self.edge_error).simd_gt(0.0);
+        let behind = self.den.mul_add(ray.t_near, self.near_error).simd_lt(self.volume);
+        let before = self.den.mul_sub(ray.t_far, self.far_error).simd_gt(self.volume);
+        inside & behind & before
+    }
+}
+
+/// Bounds for the errors of U, V and W, and of T − t·den for t = t_near and for t = t_far.
+///
+/// With u half the distance from 1 to the next f32, D = |d|₁, ē the largest coordinate of e1 and
+/// e2, M that of s. Each term of U is rounded in d, e2 and s, twice in the cross product and three
+/// times in the dot product, and the terms sum to 2·D·ē·M: 16 u D ē M. V likewise; den with ē for
+/// M. W = (den − U) − V gathers all three, and two more roundings: 38 u D ē (M + ē). T has terms of
+/// 6·ē²·M in sum and eight roundings: 48 u ē² M. T is compared with t·den, to which den adds
+/// 16 u D ē² t, twice that where its sign is not sure, and the product a rounding of it.
+///
+/// An origin that is not an f32 is off by E: U by 2·D·ē·E, T by 6·ē²·E. With M not below
+/// E / (2 u), as [`Aim`] sees to, that is at most 4 u D ē M and 12 u ē² M more.
+#[inline(always)]
+fn error_bounds<S: Lanes>(
+    simd: S,
+    aim: &Aim,
+    ray: &RayLanes<S>,
+    [edge, distance]: [f32x8<S>; 2],
+) -> [f32x8<S>; 3] {
+    let all = |x: f32| f32x8::splat(simd, x);
+    let distance = distance.max(all(aim.least_distance));
+    let edge_error = (edge * (edge + distance)).mul_add(all(aim.edge_error), all(UNDERFLOW));
+    let volume_error = distance * all(VOLUME_ERROR);
+    let edge_squared = edge * edge;
+    let t_error = |t_error: f32x8<S>| edge_squared.mul_add(volume_error + t_error, all(UNDERFLOW));
+    [edge_error, t_error(ray.near_error), t_error(ray.far_error)]
+}
+
+/// x with its sign flipped where `sign` is negative.
+#[inline(always)]
+fn flip_sign<S: Lanes>(x: f32x8<S>, sign: f32x8<S>) -> f32x8<S> {
+    let negative = sign.to_bits() & 0x8000_0000_u32;
+    f32x8::from_bits(x.to_bits() ^ negative)
+}

@@ -1,0 +1,17 @@
+//! Traversals of the wide tree, in f32 and eight lanes at a time, with exact answers.
+//!
+//! Everything in f32 is a *filter*: boxes are passed by only if the ray surely misses them, and
+//! triangles only if the ray surely misses them or hits them surely behind the best hit. What is
+//! left, the *candidates*, goes to [`crate::primitives::intersect_triangle`], which decides. So
+//! hits are the same to the last bit as those of every other traversal.
+
+mod aim;
+mod block;
+mod float;
+mod lanes;
+mod single;
+mod slab;
+mod stack;
+
+pub(crate) use aim::NoAim;
+pub(crate) use single::{AnyHit, ClosestHit};

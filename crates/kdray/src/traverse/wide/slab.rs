@@ -1,0 +1,32 @@
+//! The slab test on eight boxes at once (S4), and the order of those that are met.
+
+use super::aim::Aim;
+use super::lanes::RayLanes;
+use super::stack::Stack;
+use crate::layout::WideNode;
+use crate::simd::{Lanes, Lists};
+use fearless_simd::prelude::*;
+use fearless_simd::{f32x8, u32x8};
+
+/// Puts the children whose boxes the ray meets onto the stack, the farthest first.
+#[inline(always)]
+pub(super) fn push_children<S: Lanes>(
+    simd: S,
+    node: &WideNode,
+    aim: &Aim,
+    ray: &RayLanes<S>,
+    stack: &mut Stack,
+) {
+    // t = plane / d − o / d
+    let t = |row: usize, axis: usize| {
+        let planes = f32x8::load_array_ref(simd, node.planes(row));
+        planes.mul_sub(ray.inverse[axis], ray.start[axis])
+    };
+    let (near, far) = (aim.rows.near, aim.rows.far);
+    let t_near = t(near[0], 0).max(t(near[1], 1)).max(t(near[2], 2).max(ray.t_near));
+    let t_far = t(far[0], 0).min(t(far[1], 1)).min(t(far[2], 2).min(ray.t_far));
+    let met = t_near.simd_le(t_far);
+    let links = u32x8::load_array_ref(simd, node.links());
+    let (count, lists) = simd.pack(met, node.order(aim.octant), Lists { t: t_near, links });
+    stack.push(count, &lists);
+}
