@@ -12,8 +12,9 @@ pub(super) struct Median;
 
 impl<const K: usize> ChoosePlane<K> for Median {
     type Kept = ();
+    type Scratch = ();
 
-    fn choose(&self, node: &NodeView<'_, K>, (): &()) -> Option<SplitPlane> {
+    fn choose(&self, node: &NodeView<'_, K>, (): &(), (): &mut ()) -> Option<SplitPlane> {
         let axis = node.cell.longest_axis();
         let mut middles: Vec<f64> = node
             .references

@@ -8,8 +8,9 @@ pub(super) struct Middle;
 
 impl<const K: usize> ChoosePlane<K> for Middle {
     type Kept = ();
+    type Scratch = ();
 
-    fn choose(&self, node: &NodeView<'_, K>, (): &()) -> Option<SplitPlane> {
+    fn choose(&self, node: &NodeView<'_, K>, (): &(), (): &mut ()) -> Option<SplitPlane> {
         SplitPlane::middle(node.cell, node.cell.longest_axis())
     }
 }

@@ -28,6 +28,7 @@ pub use options::{BuildOptions, SahBuilder};
 pub use progress::BuildProgress;
 pub use strategy::{Strategy, UnknownStrategy};
 
+use crate::geometry::Aabb;
 use crate::primitives::Primitives;
 use crate::tree::KdTree;
 use progress::Progress;
@@ -59,25 +60,34 @@ impl<const K: usize> KdTree<K> {
         options: &BuildOptions,
         progress: &(dyn Fn(BuildProgress) -> ControlFlow<()> + Sync),
     ) -> Result<Self, BuildError> {
+        Ok(Self::build_all(primitives, options, progress, false)?.0)
+    }
+
+    /// Builds the tree, and, if `keep_bounds` says so, the bounds of the part of each of its
+    /// references in its leaf.
+    fn build_all(
+        primitives: &impl Primitives<K>,
+        options: &BuildOptions,
+        progress: &(dyn Fn(BuildProgress) -> ControlFlow<()> + Sync),
+        keep_bounds: bool,
+    ) -> Result<(Self, Vec<Aabb<K>>), BuildError> {
         const { assert!(K >= 1 && K <= 3, "a node has room for three axes") };
         let progress = &Progress::new(progress);
         let cost = options.cost;
         cost.check()?;
+        macro_rules! build {
+            ($strategy:expr) => {
+                Build { primitives, strategy: &$strategy, options, progress, keep_bounds }.run()
+            };
+        }
         match (options.strategy, options.sah_builder) {
-            (Strategy::Middle, _) => {
-                Build { primitives, strategy: &middle::Middle, options, progress }.run()
-            }
-            (Strategy::Median, _) => {
-                Build { primitives, strategy: &median::Median, options, progress }.run()
-            }
-            (Strategy::RoundRobin, _) => {
-                Build { primitives, strategy: &round_robin::RoundRobin, options, progress }.run()
-            }
-            (Strategy::Sah, SahBuilder::Sweep) => {
-                Build { primitives, strategy: &sah::Sweep { cost }, options, progress }.run()
-            }
-            (Strategy::Sah, SahBuilder::Naive) => {
-                Build { primitives, strategy: &sah::Naive { cost }, options, progress }.run()
+            (Strategy::Middle, _) => build!(middle::Middle),
+            (Strategy::Median, _) => build!(median::Median),
+            (Strategy::RoundRobin, _) => build!(round_robin::RoundRobin),
+            (Strategy::Sah, SahBuilder::Sweep) => build!(sah::Sweep { cost }),
+            (Strategy::Sah, SahBuilder::Naive) => build!(sah::Naive { cost }),
+            (Strategy::Sah, SahBuilder::Binned { sweep_below }) => {
+                build!(sah::Binned { cost, sweep_below })
             }
         }
     }

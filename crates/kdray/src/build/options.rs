@@ -3,15 +3,23 @@
 use super::{CostModel, Strategy};
 use crate::tree::MAX_DEPTH;
 
-/// How [`Strategy::Sah`] counts the primitives on the sides of its candidates. All builders give
-/// the same tree bit for bit.
+/// How [`Strategy::Sah`] finds the plane of least cost. [`Sweep`](Self::Sweep) and
+/// [`Naive`](Self::Naive) give the same tree bit for bit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum SahBuilder {
-    /// Sorted once, then swept: O(N log N) (Wald & Havran 2006).
+    /// All bounds of the primitives are candidates. Sorted once, then swept: O(N log N) (Wald &
+    /// Havran 2006).
     #[default]
     Sweep,
-    /// Every candidate is compared with every primitive: O(N²). What the sweep is tested with.
+    /// The same candidates; each is compared with every primitive: O(N²). What the sweep is tested
+    /// with.
     Naive,
+    /// Bounds are counted in bins (Popov et al. 2006, Hunt et al. 2006); only those around the best
+    /// border between bins are candidates. Close to the sweep, and much faster.
+    Binned {
+        /// Nodes with no more primitives than this are swept.
+        sweep_below: usize,
+    },
 }
 
 /// What to build.
@@ -31,6 +39,9 @@ pub struct BuildOptions {
     pub sah_builder: SahBuilder,
     /// A node with no more primitives than this is not cut (step 2).
     pub leaf_size: usize,
+    /// Whether a subtree becomes a leaf where that costs no more, when all below it is built. Costs
+    /// are weighed by the boxes around what is listed in each node.
+    pub prune: bool,
     /// No leaf is deeper than this (step 2); `None`: 8 + 1.3·log2 N. At most [`MAX_DEPTH`].
     pub max_depth: Option<usize>,
 }
@@ -55,7 +66,8 @@ impl BuildOptions {
     pub fn for_strategy(strategy: Strategy) -> Self {
         let leaf_size = if strategy == Strategy::Sah { 1 } else { 8 };
         let sah_builder = SahBuilder::default();
-        Self { strategy, cost: CostModel::default(), sah_builder, leaf_size, max_depth: None }
+        let (cost, prune, max_depth) = (CostModel::default(), false, None);
+        Self { strategy, cost, sah_builder, leaf_size, prune, max_depth }
     }
 
     /// The depth that no leaf of a tree over `count` primitives exceeds.

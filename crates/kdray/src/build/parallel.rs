@@ -49,3 +49,35 @@ pub(super) fn sort<T: Ord + Send>(items: &mut [T]) {
 pub(super) fn sort<T: Ord>(items: &mut [T]) {
     items.sort_unstable();
 }
+
+/// What `f` makes of pieces of at most `size` items, added up by `add`.
+pub(super) fn fold<T: Sync, R: Send>(
+    items: &[T],
+    size: usize,
+    f: &(impl Fn(&[T]) -> R + Sync),
+    add: &(impl Fn(R, R) -> R + Sync),
+) -> R {
+    if items.len() <= size {
+        return f(items);
+    }
+    let (first, second) = items.split_at(items.len() / 2);
+    let (a, b) = join(|| fold(first, size, f, add), || fold(second, size, f, add));
+    add(a, b)
+}
+
+/// `f` of all pieces of `size` items, in order; the last may be smaller.
+#[cfg(feature = "rayon")]
+pub(super) fn map_pieces<T: Send, R: Send>(
+    items: &mut [T],
+    size: usize,
+    f: impl Fn(&mut [T]) -> R + Sync,
+) -> Vec<R> {
+    use rayon::prelude::*;
+    items.par_chunks_mut(size).map(&f).collect()
+}
+
+/// `f` of all pieces of `size` items, in order; the last may be smaller.
+#[cfg(not(feature = "rayon"))]
+pub(super) fn map_pieces<T, R>(items: &mut [T], size: usize, f: impl Fn(&mut [T]) -> R) -> Vec<R> {
+    items.chunks_mut(size).map(f).collect()
+}

@@ -19,6 +19,14 @@ impl<const K: usize> Reference<K> {
         Self { id, bounds: Aabb { min: zeros(bounds.min), max: zeros(bounds.max) } }
     }
 
+    /// The reference to a part of this one that lies in `bounds` and in `cell`, if both share
+    /// anything with its own bounds: all three boxes hold the part. Bounds never grow on the way
+    /// down.
+    pub(super) fn part(&self, bounds: Option<Aabb<K>>, cell: &Aabb<K>) -> Option<Self> {
+        let bounds = bounds?.intersection(&self.bounds).intersection(cell);
+        (!bounds.is_empty()).then(|| Self::new(self.id, bounds))
+    }
+
     /// References to all primitives that are somewhere, by rising id.
     pub(super) fn to_all(primitives: &impl Primitives<K>) -> Result<Vec<Self>, BuildError> {
         let mut references =
@@ -32,4 +40,20 @@ impl<const K: usize> Reference<K> {
             }
         }
     }
+}
+
+/// Sorts the references from `first` on by id, and makes one of those to the same primitive.
+pub(super) fn merge_parts<const K: usize>(references: &mut Vec<Reference<K>>, first: usize) {
+    references[first..].sort_by_key(|reference| reference.id);
+    let mut end = first;
+    for next in first..references.len() {
+        let part = references[next];
+        if end > first && references[end - 1].id == part.id {
+            references[end - 1].bounds = references[end - 1].bounds.union(&part.bounds);
+        } else {
+            references[end] = part;
+            end += 1;
+        }
+    }
+    references.truncate(end);
 }

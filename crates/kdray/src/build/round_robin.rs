@@ -9,8 +9,9 @@ pub(super) struct RoundRobin;
 
 impl<const K: usize> ChoosePlane<K> for RoundRobin {
     type Kept = ();
+    type Scratch = ();
 
-    fn choose(&self, node: &NodeView<'_, K>, (): &()) -> Option<SplitPlane> {
+    fn choose(&self, node: &NodeView<'_, K>, (): &(), (): &mut ()) -> Option<SplitPlane> {
         (0..K).find_map(|turn| SplitPlane::middle(node.cell, (node.depth + turn) % K))
     }
 }

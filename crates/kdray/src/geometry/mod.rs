@@ -14,7 +14,7 @@ pub use aabb::Aabb;
 pub use bounding_sphere::BoundingSphere;
 pub use bounding_volume::BoundingVolume;
 pub(crate) use chord::{Chord, chord};
-pub use clip::clipped_bounds;
+pub use clip::{clipped_bounds, split_bounds};
 pub use interval::Interval;
 pub use plane::Plane;
 pub use ray::{Ray, RayError};

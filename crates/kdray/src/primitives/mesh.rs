@@ -1,7 +1,7 @@
 //! Triangle meshes.
 
 use super::{Hit, HitRule, Intersect, Primitives, intersect_triangle};
-use crate::geometry::{Aabb, Ray, clipped_bounds};
+use crate::geometry::{Aabb, Ray, clipped_bounds, split_bounds};
 use thiserror::Error;
 
 /// Triangles that share vertices: positions, and three indices into them a triangle.
@@ -150,6 +150,16 @@ impl Primitives<3> for TriangleMesh {
 
     fn clipped_bounds(&self, id: u32, cell: &Aabb<3>) -> Option<Aabb<3>> {
         clipped_bounds(&self.corners(id), cell)
+    }
+
+    fn split_bounds(
+        &self,
+        id: u32,
+        cell: &Aabb<3>,
+        axis: usize,
+        position: f32,
+    ) -> [Option<Aabb<3>>; 2] {
+        split_bounds(&self.corners(id), cell, axis, position)
     }
 }
 

@@ -25,7 +25,7 @@ const INDEX_BITS: u32 = 30;
 const INDEX_MASK: u64 = (1 << INDEX_BITS) - 1;
 
 impl Event {
-    fn new(position: f32, kind: Kind, index: u32) -> Self {
+    pub(super) fn new(position: f32, kind: Kind, index: u32) -> Self {
         let bits = position.to_bits();
         // Negative numbers in reverse, below the positive ones.
         let image = if bits >> 31 == 1 { !bits } else { bits | 1 << 31 };
@@ -89,7 +89,7 @@ impl EventList {
     pub(super) fn splice<const K: usize>(
         &self,
         axis: usize,
-        distribution: &Distribution,
+        distribution: &Distribution<K>,
         references: [&[Reference<K>]; 2],
         below: &mut Self,
         above: &mut Self,
@@ -107,9 +107,9 @@ impl EventList {
 
     /// Each event is written to both lists, and stays in the one whose length counts it: which it
     /// is cannot be foretold, and a wrongly predicted branch would cost more.
-    fn split_unchanged(
+    fn split_unchanged<const K: usize>(
         &self,
-        distribution: &Distribution,
+        distribution: &Distribution<K>,
         below: &mut Vec<Event>,
         above: &mut Vec<Event>,
     ) {
@@ -130,7 +130,7 @@ impl EventList {
     }
 }
 
-fn push_events<const K: usize>(
+pub(super) fn push_events<const K: usize>(
     events: &mut Vec<Event>,
     reference: &Reference<K>,
     index: u32,

@@ -4,10 +4,12 @@
 //! Havran 2000, §4.3), as far as they lie strictly inside: between two neighbouring ones the cost
 //! is linear. The sweep and the naive builder share everything but how they count.
 
+mod binned;
 mod candidate;
 mod event;
 mod naive;
 mod sweep;
 
+pub(super) use binned::Binned;
 pub(super) use naive::Naive;
 pub(super) use sweep::Sweep;

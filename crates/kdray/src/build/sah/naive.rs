@@ -13,8 +13,9 @@ pub(in crate::build) struct Naive {
 
 impl<const K: usize> ChoosePlane<K> for Naive {
     type Kept = ();
+    type Scratch = ();
 
-    fn choose(&self, node: &NodeView<'_, K>, (): &()) -> Option<SplitPlane> {
+    fn choose(&self, node: &NodeView<'_, K>, (): &(), (): &mut ()) -> Option<SplitPlane> {
         let mut best = None;
         for axis in 0..K {
             let view = AxisView::new(node.cell, axis)?;

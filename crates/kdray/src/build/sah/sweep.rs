@@ -24,8 +24,14 @@ const LARGE: usize = 1 << 15;
 
 impl<const K: usize> ChoosePlane<K> for Sweep {
     type Kept = Events<K>;
+    type Scratch = ();
 
-    fn choose(&self, node: &NodeView<'_, K>, events: &Events<K>) -> Option<SplitPlane> {
+    fn choose(
+        &self,
+        node: &NodeView<'_, K>,
+        events: &Events<K>,
+        (): &mut (),
+    ) -> Option<SplitPlane> {
         let count = node.references.len();
         let best = self.best_from(0, node, events);
         best.filter(|best| self.cost.is_worth(best.cost, count)).map(|best| best.plane)
@@ -45,43 +51,49 @@ impl Sweep {
         let count = node.references.len();
         let (here, others) = join_if(
             count > LARGE,
-            || self.sweep(&view, list.as_slice(), count),
+            || sweep(&self.cost, &view, list.as_slice(), [0, count]),
             || self.best_from(axis + 1, node, events),
         );
         better(here, others)
     }
+}
 
-    /// The best candidate on one axis.
-    fn sweep(&self, view: &AxisView, events: &[Event], count: usize) -> Option<Candidate> {
-        let mut best: Option<Candidate> = None;
-        let mut least = f64::INFINITY;
-        let (mut below, mut above) = (0, count);
-        let mut next = 0;
-        while next < events.len() {
-            let image = events[next].image();
-            let position = events[next].position();
-            // All events at one position: what ends or is planar there is no longer above; what is
-            // planar or starts there is below the next.
-            let (mut ends, mut planar, first) = (0, 0, next);
-            while next < events.len() && events[next].image() == image {
-                ends += usize::from(events[next].kind() == Kind::End as usize);
-                planar += usize::from(events[next].kind() == Kind::Planar as usize);
-                next += 1;
-            }
-            above -= planar + ends;
-            if view.is_inside(position) {
-                let counts = SideCounts { below, planar, above };
-                let candidate = view.candidate(&self.cost, position, counts);
-                // Positions rise, so of equal costs the first is the better one.
-                if candidate.cost < least {
-                    least = candidate.cost;
-                    best = Some(candidate);
-                }
-            }
-            below += next - first - ends;
+/// The best candidate on one axis among the positions of `events`. Before the first of them, there
+/// are as many primitives below and above as `counts` says.
+pub(super) fn sweep(
+    cost: &CostModel,
+    view: &AxisView,
+    events: &[Event],
+    counts: [usize; 2],
+) -> Option<Candidate> {
+    let mut best: Option<Candidate> = None;
+    let mut least = f64::INFINITY;
+    let [mut below, mut above] = counts;
+    let mut next = 0;
+    while next < events.len() {
+        let image = events[next].image();
+        let position = events[next].position();
+        // All events at one position: what ends or is planar there is no longer above; what is
+        // planar or starts there is below the next.
+        let (mut ends, mut planar, first) = (0, 0, next);
+        while next < events.len() && events[next].image() == image {
+            ends += usize::from(events[next].kind() == Kind::End as usize);
+            planar += usize::from(events[next].kind() == Kind::Planar as usize);
+            next += 1;
         }
-        best
+        above -= planar + ends;
+        if view.is_inside(position) {
+            let counts = SideCounts { below, planar, above };
+            let candidate = view.candidate(cost, position, counts);
+            // Positions rise, so of equal costs the first is the better one.
+            if candidate.cost < least {
+                least = candidate.cost;
+                best = Some(candidate);
+            }
+        }
+        below += next - first - ends;
     }
+    best
 }
 
 impl<const K: usize> Default for Events<K> {
@@ -91,13 +103,15 @@ impl<const K: usize> Default for Events<K> {
 }
 
 impl<const K: usize> Kept<K> for Events<K> {
+    const FOLLOWS: bool = true;
+
     fn of_root(references: &[Reference<K>]) -> Self {
         Self(std::array::from_fn(|axis| EventList::of_all(references, axis)))
     }
 
     fn hand_down(
         &self,
-        distribution: &Distribution,
+        distribution: &Distribution<K>,
         references: [&[Reference<K>]; 2],
         below: &mut Self,
         above: &mut Self,
@@ -111,7 +125,7 @@ impl<const K: usize> Kept<K> for Events<K> {
 fn splice_from<const K: usize>(
     axis: usize,
     parent: &[EventList],
-    distribution: &Distribution,
+    distribution: &Distribution<K>,
     references: [&[Reference<K>]; 2],
     (below, above): (&mut [EventList], &mut [EventList]),
 ) {
