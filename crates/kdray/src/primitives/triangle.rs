@@ -1,8 +1,8 @@
 //! The ray–triangle test: a filter in f64, and exact arithmetic where the filter cannot tell.
 
 use super::{Hit, HitRule, Side};
-use crate::exact::{Scaled, edge_function, not_vanished, turned_edge_sign, volume};
-use crate::geometry::{Ray, t_above, t_below};
+use crate::exact::{self, Scaled, edge_function, not_vanished, turned_edge_sign};
+use crate::geometry::{Interval, Ray, t_above, t_below};
 use glam::{DVec3, Vec3Swizzles};
 use std::cmp::Ordering;
 
@@ -66,28 +66,53 @@ pub fn intersect_triangle(
         return None;
     }
 
-    let t_den = q.dot(e2);
-    let (den_terms, t_terms) = (terms(d, e2, e1), terms(s, e1, e2));
+    // The terms of den sum to 2·D·ē² at most, those of T to 6·ē²·M; both may be far less.
+    let volume = q.dot(e2);
+    let den_size = den.abs();
+    let is_good = |terms: f64| (TERM_ERROR / RELATIVE_ERROR) * terms <= den_size;
     let trusted = bound_holds
-        && error <= BARYCENTRIC_ERROR * den.abs()
-        && (TERM_ERROR / RELATIVE_ERROR) * den_terms <= den.abs();
+        && error <= BARYCENTRIC_ERROR * den_size
+        && (is_good(2.0 * d_scale * edges) || is_good(terms(d, e2, e1)));
     let (t, u, v, front) = if trusted {
-        let t_error = TERM_ERROR * t_terms + 1e-290;
-        let ends = ((t_den - t_error) / den, (t_den + t_error) / den);
-        if t_above(ends.0.max(ends.1)) < ray.interval.t_min
-            || t_below(ends.0.min(ends.1)) > ray.interval.t_max
-        {
-            return None;
-        }
-        let good = t_error <= RELATIVE_ERROR * t_den.abs() && t_terms < 1e300;
-        let t = if good { not_vanished(t_den / den) } else { t_exactly(corners, ray, den) };
-        (t, (u / den).clamp(0.0, 1.0), (v / den).clamp(0.0, 1.0), den > 0.0)
+        let most_terms = 6.0 * q_scale * edges;
+        let t = if t_error(most_terms) <= RELATIVE_ERROR * volume.abs() && most_terms < 1e300 {
+            not_vanished(volume / den)
+        } else {
+            t_carefully(corners, ray, den, volume, terms(s, e1, e2))?
+        };
+        let inverse = 1.0 / den;
+        (t, (u * inverse).clamp(0.0, 1.0), (v * inverse).clamp(0.0, 1.0), den > 0.0)
     } else {
         values_exactly(corners, ray)
     };
     let side = if front { Side::Front } else { Side::Back };
     let hit = Hit { t, primitive_id: id, u, v: v.min(1.0 - u), side };
     (t.is_finite() && ray.interval.contains(t)).then_some(hit)
+}
+
+/// How far T may be off, from the sum of its terms' absolute values.
+#[inline]
+fn t_error(terms: f64) -> f64 {
+    TERM_ERROR * terms + 1e-290
+}
+
+/// t from a den that is good and a T that may not be; `None` if it surely is not in the interval.
+#[inline(never)]
+fn t_carefully(
+    corners: &[[f32; 3]; 3],
+    ray: &Ray<3>,
+    den: f64,
+    volume: f64,
+    terms: f64,
+) -> Option<f64> {
+    let t_error = t_error(terms);
+    let ends = ((volume - t_error) / den, (volume + t_error) / den);
+    let Interval { t_min, t_max } = ray.interval;
+    if t_above(ends.0.max(ends.1)) < t_min || t_below(ends.0.min(ends.1)) > t_max {
+        return None;
+    }
+    let is_good = t_error <= RELATIVE_ERROR * volume.abs() && terms < 1e300;
+    Some(if is_good { not_vanished(volume / den) } else { t_exactly(corners, ray, den) })
 }
 
 /// The sum of the absolute values of the terms of (a x b) · c.
@@ -132,7 +157,9 @@ fn is_hit_exactly(
 #[cold]
 #[inline(never)]
 fn t_exactly(corners: &[[f32; 3]; 3], ray: &Ray<3>, den: f64) -> f64 {
-    volume(ray.origin, corners.map(|p| p.map(f64::from))).value().divided_by(Scaled::from(den))
+    exact::volume(ray.origin, corners.map(|p| p.map(f64::from)))
+        .value()
+        .divided_by(Scaled::from(den))
 }
 
 /// t, u, v and whether the front is hit, without rounding before the final quotients.
@@ -145,7 +172,7 @@ fn values_exactly(corners: &[[f32; 3]; 3], ray: &Ray<3>) -> (f64, f64, f64, bool
     den.add_all(&v);
     let front = den.sign() == Ordering::Greater;
     let den = den.value();
-    let t = volume(ray.origin, corners.map(|p| p.map(f64::from))).value().divided_by(den);
+    let t = exact::volume(ray.origin, corners.map(|p| p.map(f64::from))).value().divided_by(den);
     (t, u.value().divided_by(den), v.value().divided_by(den), front)
 }
 

@@ -6,9 +6,9 @@ use fearless_simd::{Fallback, f32x8, mask32x8, u32x8};
 /// An instruction set that moves lanes about.
 pub(crate) trait Lanes: Simd {
     /// Packs the lanes of `t` and `links` where `chosen` is set, in the order of `places`: eight
-    /// lane numbers of four bits, the first lowest. How many there are; lanes behind them hold
-    /// anything.
-    fn pack(self, chosen: mask32x8<Self>, places: u32, lists: Lists<Self>) -> (usize, Lists<Self>);
+    /// lane numbers of four bits, the first lowest. Which of the places were chosen, a bit each;
+    /// lanes behind as many hold anything.
+    fn pack(self, chosen: mask32x8<Self>, places: u32, lists: Lists<Self>) -> (u32, Lists<Self>);
 }
 
 /// What is packed.
@@ -28,8 +28,9 @@ macro_rules! pack_lane_by_lane {
                 chosen: mask32x8<Self>,
                 places: u32,
                 lists: Lists<Self>,
-            ) -> (usize, Lists<Self>) {
-                let chosen = chosen.to_bitmask();
+            ) -> (u32, Lists<Self>) {
+                let mask = chosen.to_bitmask();
+                let mut chosen = 0;
                 let (t, links) = (lists.t.to_array(), lists.links.to_array());
                 let (mut packed_t, mut packed_links) = ([0.0; 8], [0; 8]);
                 let mut count = 0;
@@ -37,10 +38,11 @@ macro_rules! pack_lane_by_lane {
                     let lane = (places >> (4 * i) & 7) as usize;
                     packed_t[count & 7] = t[lane];
                     packed_links[count & 7] = links[lane];
-                    count += (chosen >> lane & 1) as usize;
+                    count += (mask >> lane & 1) as usize;
+                    chosen |= ((mask >> lane & 1) as u32) << i;
                 }
                 let t = f32x8::load_array(self, packed_t);
-                (count, Lists { t, links: u32x8::load_array(self, packed_links) })
+                (chosen, Lists { t, links: u32x8::load_array(self, packed_links) })
             }
         }
     };
@@ -93,7 +95,7 @@ mod x86 {
                     places: u32,
                     t: __m256,
                     links: __m256i,
-                ) -> (usize, __m256, __m256i) {
+                ) -> (u32, __m256, __m256i) {
                     let shifts = _mm256_setr_epi32(0, 4, 8, 12, 16, 20, 24, 28);
                     let order = _mm256_srlv_epi32(_mm256_set1_epi32(places as i32), shifts);
                     let chosen = _mm256_permutevar8x32_epi32(chosen, order);
@@ -102,7 +104,7 @@ mod x86 {
                     let lanes = _mm256_permutevar8x32_epi32(order, taken);
                     let t = _mm256_permutevar8x32_ps(t, lanes);
                     let links = _mm256_permutevar8x32_epi32(links, lanes);
-                    (chosen.count_ones() as usize, t, links)
+                    (chosen as u32, t, links)
                 }
             );
 
@@ -113,11 +115,11 @@ mod x86 {
                     chosen: mask32x8<Self>,
                     places: u32,
                     lists: Lists<Self>,
-                ) -> (usize, Lists<Self>) {
+                ) -> (u32, Lists<Self>) {
                     let Lists { t, links } = lists;
                     let chosen = chosen.to_vector().into();
-                    let (count, t, links) = $kernel(self, chosen, places, t.into(), links.into());
-                    (count, Lists { t: t.simd_into(self), links: links.simd_into(self) })
+                    let (chosen, t, links) = $kernel(self, chosen, places, t.into(), links.into());
+                    (chosen, Lists { t: t.simd_into(self), links: links.simd_into(self) })
                 }
             }
         };
@@ -142,7 +144,8 @@ mod tests {
             let t = f32x8::load_array(simd, [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
             let links = u32x8::load_array(simd, [10, 11, 12, 13, 14, 15, 16, 17]);
             let chosen = mask32x8::from_bitmask(simd, self.0);
-            let (count, lists) = simd.pack(chosen, self.1, Lists { t, links });
+            let (chosen, lists) = simd.pack(chosen, self.1, Lists { t, links });
+            let count = chosen.count_ones() as usize;
             (lists.t.to_array()[..count].to_vec(), lists.links.to_array()[..count].to_vec())
         }
     }

@@ -4,10 +4,10 @@ use super::aim::{Aim, NoAim};
 use super::block::BlockTest;
 use super::float::FloatHit;
 use super::lanes::RayLanes;
-use super::slab::push_children;
+use super::slab::nearest_child;
 use super::stack::Stack;
 use crate::geometry::Ray;
-use crate::layout::{TriangleBlock, WideTree};
+use crate::layout::{Link, TriangleBlock, WideTree};
 use crate::primitives::{Hit, HitRule, intersect_triangle};
 use crate::simd::{Kernel, Lanes};
 use fearless_simd::prelude::*;
@@ -91,13 +91,16 @@ impl<const EXACT: bool> Kernel for ClosestHit<'_, EXACT> {
         let mut lanes = RayLanes::new(simd, aim);
         let mut best = Best::new(ray, aim);
         let mut stack = Stack::new();
-        while let Some(link) = stack.pop(best.t_far) {
-            if !link.is_leaf() {
-                push_children(simd, tree.node(link), aim, &lanes, &mut stack);
-                continue;
-            }
-            for index in 0..link.block_count() {
-                best.visit::<S, EXACT>(simd, tree.block(link, index), aim, &mut lanes);
+        let mut next = Some(Link::ROOT);
+        while let Some(link) = next {
+            if link.is_leaf() {
+                for index in 0..link.block_count() {
+                    best.visit::<S, EXACT>(simd, tree.block(link, index), aim, &mut lanes);
+                }
+                next = stack.pop(best.t_far);
+            } else {
+                next = nearest_child(simd, tree.node(link), aim, &lanes, &mut stack)
+                    .or_else(|| stack.pop(best.t_far));
             }
         }
         Ok(best.hit)
@@ -113,9 +116,11 @@ impl<const EXACT: bool> Kernel for AnyHit<'_, EXACT> {
         let aim = &Aim::new(tree, ray)?;
         let lanes = RayLanes::new(simd, aim);
         let mut stack = Stack::new();
-        while let Some(link) = stack.pop(aim.t_far) {
+        let mut next = Some(Link::ROOT);
+        while let Some(link) = next {
             if !link.is_leaf() {
-                push_children(simd, tree.node(link), aim, &lanes, &mut stack);
+                next = nearest_child(simd, tree.node(link), aim, &lanes, &mut stack)
+                    .or_else(|| stack.pop(aim.t_far));
                 continue;
             }
             for index in 0..link.block_count() {
@@ -124,6 +129,7 @@ impl<const EXACT: bool> Kernel for AnyHit<'_, EXACT> {
                     return Ok(true);
                 }
             }
+            next = stack.pop(aim.t_far);
         }
         Ok(false)
     }

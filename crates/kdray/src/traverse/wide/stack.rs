@@ -12,12 +12,10 @@ pub(super) struct Stack {
 }
 
 impl Stack {
-    /// Holds the root only.
+    /// Nothing.
     #[inline(always)]
     pub(super) fn new() -> Self {
-        let mut stack = Self { len: 1, t: [0.0; STACK_SIZE], links: [0; STACK_SIZE] };
-        (stack.t[0], stack.links[0]) = (f32::NEG_INFINITY, Link::ROOT.to_bits());
-        stack
+        Self { len: 0, t: [0.0; STACK_SIZE], links: [0; STACK_SIZE] }
     }
 
     /// Adds the first `count` of eight, of which the last is visited next. There is always room
