@@ -34,7 +34,7 @@ fn crates_depend_downwards_only() {
         let allowed: &[&str] = match package.name.as_str() {
             "kdray" | "kdray-scene" | "xtask" => &[],
             "kdray-render" => &["kdray", "kdray-scene"],
-            "kdray-cli" => &["kdray", "kdray-scene", "kdray-render"],
+            "kdray-cli" | "kdray-bench" => &["kdray", "kdray-scene", "kdray-render"],
             "kdray-tests" => &["kdray", "kdray-scene"],
             other => panic!("say in this test what {other} may depend on"),
         };
@@ -49,7 +49,8 @@ fn crates_depend_downwards_only() {
 fn nothing_depends_on_the_command_the_tests_or_the_chores() {
     for package in &metadata().packages {
         for dependency in &package.dependencies {
-            let leaf = ["kdray-cli", "kdray-tests", "xtask"].contains(&dependency.name.as_str());
+            let leaves = ["kdray-bench", "kdray-cli", "kdray-tests", "xtask"];
+            let leaf = leaves.contains(&dependency.name.as_str());
             assert!(!leaf, "{} depends on {}", package.name, dependency.name);
         }
     }
@@ -169,6 +170,42 @@ fn rust_files(folder: &Path) -> Vec<PathBuf> {
     }
     files.sort();
     files
+}
+
+/// Only the bench calls a C library. The workspace denies `unsafe` to everyone, and what all others
+/// compile to forbids it, so that no permission can be given below.
+#[test]
+fn unsafe_code_is_forbidden_to_all_but_the_bench() {
+    let metadata = metadata();
+    let others = metadata.packages.iter().filter(|p| p.name.as_str() != "kdray-bench");
+    let roots = others.flat_map(|package| &package.targets).filter(|it| it.is_lib() || it.is_bin());
+    let mut seen = 0;
+    for root in roots {
+        let text = fs::read_to_string(&root.src_path).expect("source files are readable");
+        let forbids = text.lines().any(|line| line == "#![forbid(unsafe_code)]");
+        assert!(forbids, "{} does not say #![forbid(unsafe_code)]", root.src_path);
+        seen += 1;
+    }
+    assert!(seen >= 9, "only {seen} crates were found");
+}
+
+#[test]
+fn only_one_folder_permits_unsafe_code() {
+    let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let mut permits = BTreeSet::new();
+    for folder in ["bench", "crates", "tests", "xtask"] {
+        for file in rust_files(&workspace.join(folder)) {
+            let text = fs::read_to_string(&file).expect("source files are readable");
+            let attributes = text.lines().filter(|line| line.trim_start().starts_with('#'));
+            let permit =
+                |line: &str| ["allow(", "expect(", "warn("].iter().any(|it| line.contains(it));
+            if attributes.into_iter().any(|line| line.contains("unsafe_code") && permit(line)) {
+                let name = file.strip_prefix(&workspace).expect("it was found there");
+                permits.insert(name.to_owned());
+            }
+        }
+    }
+    assert_eq!(permits, BTreeSet::from([PathBuf::from("bench/src/embree/mod.rs")]));
 }
 
 #[test]

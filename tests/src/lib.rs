@@ -1,6 +1,8 @@
 //! What the tests share: an oracle in rational arithmetic, meshes and rays that are hard on
 //! purpose, the scenes beside the checkout, and a fast answer without a tree.
 
+#![forbid(unsafe_code)]
+
 pub mod agree;
 pub mod closed;
 pub mod command_line;

@@ -1,6 +1,9 @@
 //! What CI and the README call: `cargo xtask lint`, `cargo xtask test`, and the long checks.
 
+#![forbid(unsafe_code)]
+
 mod agree;
+mod bench;
 mod lint;
 mod parity;
 mod pixels;
@@ -28,6 +31,9 @@ enum Task {
     Agree(agree::Options),
     /// Rays at every vertex and edge of closed meshes: `count` must be even. In a release build.
     Parity(parity::Options),
+    /// kdray beside Embree and other libraries: rays a second, build times, memory, wrong answers.
+    #[command(disable_help_flag = true)]
+    Bench(bench::Options),
     /// Pictures of real scenes: every strategy must give the same, byte for byte.
     Pixels(pixels::Options),
 }
@@ -38,6 +44,7 @@ fn main() -> ExitCode {
         Task::Test => test::run(),
         Task::Agree(options) => agree::run(&options),
         Task::Parity(options) => parity::run(&options),
+        Task::Bench(options) => bench::run(options),
         Task::Pixels(options) => pixels::run(&options),
     };
     match outcome {

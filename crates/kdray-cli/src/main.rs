@@ -1,5 +1,7 @@
 //! The command `kdray`: render, measure, draw and query kd-trees over meshes.
 
+#![forbid(unsafe_code)]
+
 mod args;
 mod build;
 mod cli;

@@ -4,6 +4,8 @@
 //! camera (its own, or one that [`frame`] chooses), is [`render()`]ed with [`RenderOptions`] to a
 //! [`Picture`] of named float layers, which is written as PNG or OpenEXR.
 
+#![forbid(unsafe_code)]
+
 mod camera;
 mod film;
 mod light;

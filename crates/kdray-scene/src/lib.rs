@@ -2,6 +2,8 @@
 //!
 //! [`load()`] reads OBJ, PLY, STL, OFF, glTF and GLB files, also compressed ones, into a [`Model`].
 
+#![forbid(unsafe_code)]
+
 pub mod built_in;
 mod camera;
 mod error;

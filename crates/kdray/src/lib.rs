@@ -5,6 +5,8 @@
 //!
 //! Most users need four names: [`TriangleMesh`], [`Scene`], [`Ray`] and [`Hit`].
 
+#![forbid(unsafe_code)]
+
 pub mod build;
 pub mod exact;
 pub mod geometry;

@@ -2,6 +2,8 @@
 //! testing every triangle; and all queries for some rays of each against rational arithmetic.
 //! Ends with failure on any difference.
 
+#![forbid(unsafe_code)]
+
 use kdray::{BuildOptions, Ray, Scene, Strategy, TriangleMesh};
 use kdray_tests::agree;
 use kdray_tests::command_line::Arguments;

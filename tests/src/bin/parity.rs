@@ -1,6 +1,8 @@
 //! `cargo xtask parity`: rays at the vertices and edges of closed meshes cross them an even number
 //! of times. Ends with failure on any odd count.
 
+#![forbid(unsafe_code)]
+
 use kdray::{BuildOptions, Scene};
 use kdray_tests::closed::closed_part;
 use kdray_tests::command_line::Arguments;

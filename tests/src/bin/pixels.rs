@@ -1,6 +1,8 @@
 //! `cargo xtask pixels`: the command `kdray render` with each strategy, from the cameras of
 //! scenes.json; all must give the same file, byte for byte. Ends with failure on any difference.
 
+#![forbid(unsafe_code)]
+
 use kdray::Strategy;
 use kdray_tests::command_line::Arguments;
 use kdray_tests::shared::{SceneInfo, scenes};

@@ -1,0 +1,146 @@
+//! The comparison, scene by scene.
+
+use crate::args::Compare;
+use crate::contender::{Contender, Threads};
+use crate::contenders;
+use crate::embree::Embree;
+use crate::error::BenchError;
+use crate::machine::{Machine, work_folder};
+use crate::measure::{self, Ready, spoken};
+use crate::rays::{RaySets, SetKind};
+use crate::reference::Reference;
+use crate::report::{BuildRow, Outputs, Report, say};
+use crate::scene::BenchScene;
+use crate::workers::Workers;
+use std::time::Instant;
+
+/// Rays through so many pixels across and down.
+const RESOLUTION: u32 = 1024;
+const RESOLUTION_QUICK: u32 = 512;
+
+/// How often everything is measured.
+pub(crate) const ROUNDS: u32 = 5;
+const ROUNDS_QUICK: u32 = 3;
+
+/// What is the same for all scenes.
+struct Run<'a> {
+    options: &'a Compare,
+    contenders: Vec<Box<dyn Contender>>,
+    sets: Vec<SetKind>,
+    resolution: u32,
+    rounds: u32,
+}
+
+/// Embree, or a line that says why not.
+pub(crate) fn embree() -> Option<Embree> {
+    match Embree::fetch(&work_folder()) {
+        Ok(embree) => Some(embree),
+        Err(error) => {
+            say(&format!("{error}\ngoing on without Embree; there are no ratios"));
+            None
+        }
+    }
+}
+
+/// Runs the comparison and tells it.
+pub(crate) fn run(options: &Compare) -> Result<(), BenchError> {
+    let start = Instant::now();
+    let outputs = Outputs::create(options)?;
+    let sets = SetKind::of_names(&options.sets)?;
+    let embree = embree();
+    let version = embree.as_ref().map(Embree::version).transpose()?;
+    let run = Run {
+        options,
+        contenders: chosen(embree.as_ref(), &options.contenders)?,
+        sets,
+        resolution: options.resolution.unwrap_or(if options.quick {
+            RESOLUTION_QUICK
+        } else {
+            RESOLUTION
+        }),
+        rounds: options.rounds.unwrap_or(if options.quick { ROUNDS_QUICK } else { ROUNDS }),
+    };
+    let mut report = Report::new(Machine::here(version), run.resolution, run.rounds);
+    for name in scenes(options) {
+        run.scene(&BenchScene::find(&name, &options.view)?, &mut report)?;
+    }
+    report.seconds = start.elapsed().as_secs_f64();
+    outputs.write(&report)?;
+    say(&format!("done in {}", spoken(start.elapsed())));
+    Ok(())
+}
+
+/// The contenders of which some kernel was asked for.
+pub(crate) fn chosen(
+    embree: Option<&Embree>,
+    names: &[String],
+) -> Result<Vec<Box<dyn Contender>>, BenchError> {
+    let mut list = contenders::all(embree);
+    list.retain(|it| {
+        it.kernels().iter().any(|kernel| contenders::wanted(it.as_ref(), kernel, names))
+    });
+    if list.is_empty() {
+        return Err(BenchError::Usage(format!("no contender is called {}", names.join(", "))));
+    }
+    Ok(list)
+}
+
+/// The names of the scenes to run.
+fn scenes(options: &Compare) -> Vec<String> {
+    if !options.scenes.is_empty() {
+        return options.scenes.clone();
+    }
+    if !BenchScene::has_shared() {
+        say("there is no folder ../shared/scenes beside the checkout: scenes are made by code");
+    }
+    BenchScene::default_names(options.quick)
+}
+
+impl Run<'_> {
+    fn scene(&self, scene: &BenchScene, report: &mut Report) -> Result<(), BenchError> {
+        let start = Instant::now();
+        let triangles = scene.mesh.triangles().len();
+        say(&format!("{}: {triangles} triangles", scene.name));
+        let reference = Reference::build(&scene.mesh)?;
+        let folder = work_folder().join("rays");
+        let rays = RaySets::get(scene, &reference, self.resolution, &folder)?;
+        let truths = self.sets.iter().map(|&kind| (kind, reference.truth(rays.set(kind))));
+        let truths: Vec<_> = truths.collect();
+        drop(reference);
+        say(&format!("  rays and exact answers: {}", spoken(start.elapsed())));
+        let ready = self.build_all(scene, &mut report.builds)?;
+        for (kind, truth) in &truths {
+            let start = Instant::now();
+            let asked = (self.options.contenders.as_slice(), self.rounds);
+            report.rays.extend(measure::trace(&ready, scene, &rays, (*kind, truth), asked));
+            let count = rays.set(*kind).rays.len();
+            say(&format!("  {}: {count} rays, {}", kind.name(), spoken(start.elapsed())));
+        }
+        report.scenes.push((scene.name.clone(), triangles));
+        Ok(())
+    }
+
+    /// Builds all structures on one thread, to be kept, and on two, only to know the time.
+    fn build_all<'a>(
+        &'a self,
+        scene: &'a BenchScene,
+        rows: &mut Vec<BuildRow>,
+    ) -> Result<Vec<Ready<'a>>, BenchError> {
+        let (one, two) = (Workers::new(1)?, Workers::new(2)?);
+        let mut ready = Vec::new();
+        for contender in &self.contenders {
+            let contender = contender.as_ref();
+            let start = Instant::now();
+            let (built, row) = measure::build(contender, scene, &one, self.rounds)?;
+            ready.push(built);
+            rows.push(row);
+            if contender.builds_on() == Threads::Chosen && !self.options.no_builds {
+                rows.push(measure::build(contender, scene, &two, self.rounds)?.1);
+            }
+            let row = rows.last().map_or(0.0, |row| row.bytes_per_triangle);
+            let took = spoken(start.elapsed());
+            say(&format!("  built {} in {took}, {row:.0} B a triangle", contender.name()));
+        }
+        Ok(ready)
+    }
+}

@@ -1,0 +1,244 @@
+//! Building and tracing, with the clock running.
+//!
+//! Time is the processor time of the whole process, which other programs on the machine disturb
+//! least; wall time is taken beside it. Contenders take turns in every round, so that a change of
+//! the machine's speed meets all of them, and ratios are the median of the rounds' ratios.
+
+use crate::contender::{Answers, Built, Contender, Job, Threads, Trace, full_name};
+use crate::contenders::{BASELINE, wanted};
+use crate::error::BenchError;
+use crate::memory;
+use crate::rays::{RaySet, RaySets, SetKind};
+use crate::reference::{Truth, Wrong};
+use crate::report::{BuildRow, RayRow};
+use crate::scene::BenchScene;
+use crate::workers::Workers;
+use cpu_time::ProcessTime;
+use std::time::{Duration, Instant};
+
+/// Whoever needs longer for a set traces a sample of its rays that takes about as long.
+const LONGEST_TRACE: f64 = 0.5;
+
+/// But never fewer rays than one in this many.
+const SMALLEST_SAMPLE: usize = 32;
+
+/// Builds are repeated until they took this long in all.
+const BUILDS: f64 = 0.6;
+
+/// Processor and wall time, in seconds.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Took {
+    pub(crate) cpu: f64,
+    pub(crate) wall: f64,
+}
+
+/// What it takes to do `work`, and its result.
+pub(crate) fn timed<R>(work: impl FnOnce() -> R) -> (R, Took) {
+    let (cpu, wall) = (ProcessTime::now(), Instant::now());
+    let result = work();
+    let took = Took { cpu: cpu.elapsed().as_secs_f64(), wall: wall.elapsed().as_secs_f64() };
+    (result, took)
+}
+
+/// The middle value; of an even number the lower one of the two. Zero of none.
+pub(crate) fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len().saturating_sub(1) / 2).copied().unwrap_or(0.0)
+}
+
+/// A contender with its structure over a scene.
+pub(crate) struct Ready<'a> {
+    contender: &'a dyn Contender,
+    built: Box<dyn Built + 'a>,
+}
+
+/// Builds a contender's structure, several times if it is quick.
+pub(crate) fn build<'a>(
+    contender: &'a dyn Contender,
+    scene: &'a BenchScene,
+    workers: &Workers,
+    rounds: u32,
+) -> Result<(Ready<'a>, BuildRow), BenchError> {
+    let (mut cpu, mut wall) = (Vec::new(), Vec::new());
+    loop {
+        let before = memory::in_use();
+        let (built, took) = timed(|| contender.build(&scene.mesh, workers));
+        let built = built?;
+        cpu.push(took.cpu);
+        wall.push(took.wall);
+        if wall.len() < rounds as usize && wall.iter().sum::<f64>() < BUILDS {
+            continue;
+        }
+        let rust = memory::in_use().saturating_sub(before);
+        let bytes = built.own_bytes().unwrap_or(rust);
+        let threads = match contender.builds_on() {
+            Threads::Chosen => workers.count,
+            Threads::One => 1,
+            Threads::All => std::thread::available_parallelism().map_or(1, usize::from),
+        };
+        let row = BuildRow {
+            scene: scene.name.clone(),
+            contender: contender.name().to_owned(),
+            threads,
+            build_s: median(wall),
+            build_cpu_s: median(cpu),
+            bytes_per_triangle: bytes as f64 / scene.mesh.triangles().len().max(1) as f64,
+        };
+        return Ok((Ready { contender, built }, row));
+    }
+}
+
+/// A kernel with the rays of a set, or with a sample of them.
+struct Lane<'a> {
+    name: String,
+    trace: Box<dyn Trace + 'a>,
+    answers: Answers,
+    rays: usize,
+    wrong: Wrong,
+    took: Vec<Took>,
+}
+
+/// Measures all kernels that were asked for on one set of rays.
+pub(crate) fn trace(
+    ready: &[Ready<'_>],
+    scene: &BenchScene,
+    rays: &RaySets,
+    (kind, truth): (SetKind, &Truth),
+    (names, rounds): (&[String], u32),
+) -> Vec<RayRow> {
+    let (set, primary) = (rays.set(kind), rays.set(SetKind::Primary));
+    if set.rays.is_empty() {
+        return Vec::new();
+    }
+    let mut lanes = Vec::new();
+    for Ready { contender, built } in ready {
+        for kernel in contender.kernels() {
+            if wanted(*contender, kernel, names) {
+                let name = full_name(*contender, kernel);
+                let prepare = |set: &RaySet| built.prepare(kernel, &Job { set, primary });
+                lanes.extend(Lane::new(name, prepare, set, truth, scene.diagonal));
+            }
+        }
+    }
+    for _ in 0..rounds {
+        lanes.iter_mut().for_each(Lane::run);
+    }
+    let baseline = lanes.iter().position(|lane| lane.name == BASELINE);
+    let baseline = baseline.map(|index| lanes[index].rates());
+    lanes.iter().map(|lane| lane.row(scene, kind, baseline.as_deref())).collect()
+}
+
+impl<'a> Lane<'a> {
+    /// Prepares rays, all if they can be traced in time, traces them once and checks the answers.
+    fn new(
+        name: String,
+        prepare: impl Fn(&RaySet) -> Option<Box<dyn Trace + 'a>>,
+        set: &RaySet,
+        truth: &Truth,
+        diagonal: f64,
+    ) -> Option<Self> {
+        let all = set.rays.len();
+        let pilot = set.sample(&set.sample_runs(all / 64));
+        let mut lane = Self::prepared(name, prepare(&pilot)?, &pilot);
+        // The first time warms the caches.
+        lane.run();
+        lane.run();
+        let seconds = lane.took[1].cpu * all as f64 / lane.rays as f64;
+        let share = (LONGEST_TRACE / seconds.max(LONGEST_TRACE)).max(1.0 / SMALLEST_SAMPLE as f64);
+        let runs = set.sample_runs((all as f64 * share) as usize);
+        let (set, truth) = (set.sample(&runs), truth.sample(&runs));
+        let mut lane = Self::prepared(lane.name, prepare(&set)?, &set);
+        lane.trace.trace(&mut lane.answers);
+        lane.wrong = truth.check(&lane.answers, &set.rays, diagonal);
+        Some(lane)
+    }
+
+    fn prepared(name: String, trace: Box<dyn Trace + 'a>, set: &RaySet) -> Self {
+        let rays = set.rays.len();
+        let answers = Answers::room(set.kind.question(), rays);
+        Self { name, trace, answers, rays, wrong: Wrong::default(), took: Vec::new() }
+    }
+
+    fn run(&mut self) {
+        let ((), took) = timed(|| self.trace.trace(&mut self.answers));
+        self.took.push(took);
+    }
+
+    /// Rays a second in each round, by processor time.
+    fn rates(&self) -> Vec<f64> {
+        self.took.iter().map(|took| self.rays as f64 / took.cpu).collect()
+    }
+
+    fn row(&self, scene: &BenchScene, kind: SetKind, baseline: Option<&[f64]>) -> RayRow {
+        let rates = self.rates();
+        let ratio =
+            |base: &[f64]| median(rates.iter().zip(base).map(|(rate, base)| rate / base).collect());
+        RayRow {
+            scene: scene.name.clone(),
+            set: kind.name().to_owned(),
+            contender: self.name.clone(),
+            rays: self.rays,
+            mrays_wall: self.rays as f64
+                / median(self.took.iter().map(|it| it.wall).collect())
+                / 1e6,
+            ratio: baseline.map(ratio),
+            mrays: median(rates) / 1e6,
+            wrong: self.wrong,
+        }
+    }
+}
+
+/// The time as people say it.
+pub(crate) fn spoken(took: Duration) -> String {
+    let seconds = took.as_secs();
+    if seconds < 60 {
+        return format!("{:.1} s", took.as_secs_f64());
+    }
+    format!("{} min {} s", seconds / 60, seconds % 60)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contender::Found;
+    use crate::rays;
+
+    #[test]
+    fn medians_are_values_that_were_measured() {
+        assert_eq!(median(vec![3.0, 1.0, 2.0]), 2.0);
+        assert_eq!(median(vec![4.0, 1.0, 3.0, 2.0]), 2.0);
+        assert_eq!(median(Vec::new()), 0.0);
+    }
+
+    /// Answers every ray with the same hit.
+    struct Always(f32);
+
+    impl Trace for Always {
+        fn trace(&mut self, answers: &mut Answers) {
+            if let Answers::Closest(found) = answers {
+                found.fill(Found { t: self.0, id: 1 });
+            }
+        }
+    }
+
+    #[test]
+    fn wrong_answers_are_counted_in_a_lane() {
+        let (scene, reference, sets) = rays::tests::terrain();
+        let set = sets.set(SetKind::Primary);
+        let truth = reference.truth(set);
+        let hits = reference.hits(&set.rays).iter().flatten().count();
+        let lane = |t| {
+            let prepare = move |_: &RaySet| Some(Box::new(Always(t)) as Box<dyn Trace>);
+            Lane::new("liar".into(), prepare, set, &truth, scene.diagonal).unwrap()
+        };
+        let wrong = lane(1e6).wrong;
+        assert_eq!(wrong.phantom as usize, set.rays.len() - hits);
+        assert_eq!((wrong.far as usize, wrong.lost), (hits, 0));
+    }
+
+    #[test]
+    fn times_are_spoken() {
+        assert_eq!(spoken(Duration::from_millis(1500)), "1.5 s");
+        assert_eq!(spoken(Duration::from_secs(125)), "2 min 5 s");
+    }
+}
