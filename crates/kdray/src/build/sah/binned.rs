@@ -3,7 +3,7 @@
 //! heuristic", 2006.
 
 use super::candidate::{AxisView, Candidate, SideCounts, better};
-use super::event::{Event, Kind, push_events};
+use super::event::{Event, Kind};
 use super::sweep::sweep;
 use crate::build::CostModel;
 use crate::build::parallel::{fold, join};
@@ -64,12 +64,9 @@ impl Binned {
         let mut best = None;
         for axis in 0..K {
             let view = AxisView::new(node.cell, axis)?;
-            events.clear();
-            for reference in node.references {
-                push_events(events, reference, 0, axis);
-            }
+            let counts = collect_inside(node, axis, events);
             events.sort_unstable();
-            best = better(best, sweep(&self.cost, &view, events, [0, node.references.len()]));
+            best = better(best, sweep(&self.cost, &view, events, counts));
         }
         best
     }
@@ -122,6 +119,31 @@ impl Binned {
         }
         best
     }
+}
+
+/// Makes `events` those strictly inside the cell, and returns how many primitives are below and
+/// above before the first of them.
+fn collect_inside<const K: usize>(
+    node: &NodeView<'_, K>,
+    axis: usize,
+    events: &mut Vec<Event>,
+) -> [usize; 2] {
+    let (min, max) = (node.cell.min[axis], node.cell.max[axis]);
+    // Each event is written, and stays if the length counts it.
+    events.resize(2 * node.references.len() + 1, Event::default());
+    let (mut length, mut below, mut above) = (0, 0, 0);
+    for Reference { bounds, .. } in node.references {
+        let (lo, hi) = (bounds.min[axis], bounds.max[axis]);
+        let first = if lo == hi { Kind::Planar } else { Kind::Start };
+        events[length] = Event::new(lo, first, 0);
+        length += usize::from(min < lo && lo < max);
+        events[length] = Event::new(hi, Kind::End, 0);
+        length += usize::from(lo < hi && hi < max);
+        below += usize::from(lo <= min);
+        above += usize::from(hi > min);
+    }
+    events.truncate(length);
+    [below, above]
 }
 
 /// Where positions on an axis lie among the bins, in fixed-point numbers: monotone, so that bounds
