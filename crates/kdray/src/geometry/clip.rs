@@ -100,8 +100,9 @@ fn clipped<'a, const K: usize>(
 
 /// 2^-40 of the largest coordinate: cutting six times in f64 errs by less than 2^-48 of it.
 fn pad<const K: usize>(whole: &Aabb<K>, cell: &Aabb<K>) -> f64 {
-    let all = whole.min.iter().chain(&whole.max).chain(&cell.min).chain(&cell.max);
-    f64::from(all.fold(0.0_f32, |m, x| m.max(x.abs()))) * (1.0 / (1u64 << 40) as f64)
+    let largest = |p: &[f32; K]| p.iter().fold(0.0_f32, |m, x| m.max(x.abs()));
+    let all = [&whole.min, &whole.max, &cell.min, &cell.max].map(largest);
+    f64::from(all.into_iter().fold(0.0, f32::max)) * (1.0 / (1u64 << 40) as f64)
 }
 
 /// A half-space: where `side · position[axis] ≥ side · plane`.

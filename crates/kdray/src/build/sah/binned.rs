@@ -2,8 +2,8 @@
 //! kd-trees", 2006, and Hunt et al., "Fast kd-tree construction with an adaptive error-bounded
 //! heuristic", 2006.
 
-use super::candidate::{AxisView, Candidate, SideCounts, better};
-use super::event::{Event, Kind, push_events};
+use super::candidate::{AxisView, Candidate, better};
+use super::event::{Event, Kind};
 use super::sweep::sweep;
 use crate::build::CostModel;
 use crate::build::parallel::{fold, join};
@@ -27,6 +27,9 @@ pub(in crate::build) struct Room(Vec<Event>);
 
 /// Bins on each axis.
 const BINS: usize = 32;
+
+/// Room for the bins and the faces of the cell: a power of two.
+const ROOM: usize = 64;
 
 /// How far from a border, in bins, its candidates may lie.
 const REACH: u32 = Scale::BIN / 2;
@@ -64,12 +67,9 @@ impl Binned {
         let mut best = None;
         for axis in 0..K {
             let view = AxisView::new(node.cell, axis)?;
-            events.clear();
-            for reference in node.references {
-                push_events(events, reference, 0, axis);
-            }
+            let counts = collect_inside(node, axis, events);
             events.sort_unstable();
-            best = better(best, sweep(&self.cost, &view, events, [0, node.references.len()]));
+            best = better(best, sweep(&self.cost, &view, events, counts));
         }
         best
     }
@@ -101,7 +101,7 @@ impl Binned {
         scales: &[Scale; K],
         bins: &Bins<K>,
     ) -> Option<(usize, Candidate)> {
-        let mut best: Option<(usize, Candidate)> = None;
+        let (mut least, mut best) = (f64::INFINITY, None);
         for axis in 0..K {
             let view = AxisView::new(node.cell, axis)?;
             let (mut below, mut above) = (0, node.references.len());
@@ -109,19 +109,40 @@ impl Binned {
                 below += bins.starts[axis][border - 1] as usize;
                 above -= bins.ends[axis][border] as usize;
                 let position = scales[axis].position(border);
-                if !view.is_inside(position) {
-                    continue;
-                }
-                let counts = SideCounts { below, planar: 0, above };
-                let mut candidate = view.candidate(&self.cost, position, counts);
-                candidate.plane.planar = PlanarSide::Above;
-                if best.is_none_or(|(_, best)| candidate.beats(&best)) {
-                    best = Some((border, candidate));
+                let cost = view.cost(&self.cost, position, [below, above]);
+                if cost < least && view.is_inside(position) {
+                    let plane = SplitPlane { axis, position, planar: PlanarSide::Above };
+                    (least, best) = (cost, Some((border, Candidate { cost, plane })));
                 }
             }
         }
         best
     }
+}
+
+/// Makes `events` those strictly inside the cell, and returns how many primitives are below and
+/// above before the first of them.
+fn collect_inside<const K: usize>(
+    node: &NodeView<'_, K>,
+    axis: usize,
+    events: &mut Vec<Event>,
+) -> [usize; 2] {
+    let (min, max) = (node.cell.min[axis], node.cell.max[axis]);
+    // Each event is written, and stays if the length counts it.
+    events.resize(2 * node.references.len() + 1, Event::default());
+    let (mut length, mut below, mut above) = (0, 0, 0);
+    for Reference { bounds, .. } in node.references {
+        let (lo, hi) = (bounds.min[axis], bounds.max[axis]);
+        let first = if lo == hi { Kind::Planar } else { Kind::Start };
+        events[length] = Event::new(lo, first, 0);
+        length += usize::from(min < lo && lo < max);
+        events[length] = Event::new(hi, Kind::End, 0);
+        length += usize::from(lo < hi && hi < max);
+        below += usize::from(lo <= min);
+        above += usize::from(hi > min);
+    }
+    events.truncate(length);
+    [below, above]
 }
 
 /// Where positions on an axis lie among the bins, in fixed-point numbers: monotone, so that bounds
@@ -137,7 +158,7 @@ impl Scale {
     /// The width of a bin.
     const BIN: u32 = 128;
 
-    /// A float so large that its last place is 1/128.
+    /// A float so large that its last place is 1/128. The bits of the bin are zero.
     const SHIFT: f32 = 65536.0;
 
     /// Those of the axes; `None` if the cell is too small or too large for that.
@@ -155,8 +176,25 @@ impl Scale {
     /// The place of `x`, a position in the cell.
     #[inline]
     fn place(&self, x: f32) -> u32 {
-        let shifted = (x - self.min) * self.bins_per_length + Self::SHIFT;
-        shifted.to_bits().wrapping_sub(Self::SHIFT.to_bits())
+        self.shifted(x, Self::SHIFT).wrapping_sub(Self::SHIFT.to_bits())
+    }
+
+    /// The bin of `x`.
+    #[inline]
+    fn bin(&self, x: f32) -> usize {
+        (self.shifted(x, Self::SHIFT) / Self::BIN) as usize & (ROOM - 1)
+    }
+
+    /// The first border that is not below `x`.
+    #[inline]
+    fn border(&self, x: f32) -> usize {
+        const ROUND_UP: f32 = (Scale::BIN - 1) as f32 / Scale::BIN as f32;
+        (self.shifted(x, Self::SHIFT + ROUND_UP) / Self::BIN) as usize & (ROOM - 1)
+    }
+
+    #[inline]
+    fn shifted(&self, x: f32, shift: f32) -> u32 {
+        ((x - self.min) * self.bins_per_length + shift).to_bits()
     }
 
     /// The position of the border below a bin.
@@ -168,21 +206,20 @@ impl Scale {
 /// How many primitives begin and end where on each axis.
 struct Bins<const K: usize> {
     /// By the bin that the lower bound lies in; at a border, in the bin above it.
-    starts: [[u32; BINS + 1]; K],
+    starts: [[u32; ROOM]; K],
     /// By the first border that the upper bound is not above; for a primitive in a border, the
     /// next.
-    ends: [[u32; BINS + 2]; K],
+    ends: [[u32; ROOM]; K],
 }
 
 impl<const K: usize> Bins<K> {
     fn of(references: &[Reference<K>], scales: &[Scale; K]) -> Self {
         let mut bins = Self { starts: [[0; _]; K], ends: [[0; _]; K] };
         for Reference { bounds, .. } in references {
-            for axis in 0..K {
-                let start = scales[axis].place(bounds.min[axis]) / Scale::BIN;
-                let end = scales[axis].place(bounds.max[axis]).div_ceil(Scale::BIN).max(start + 1);
-                bins.starts[axis][(start as usize).min(BINS)] += 1;
-                bins.ends[axis][(end as usize).min(BINS + 1)] += 1;
+            for (axis, scale) in scales.iter().enumerate() {
+                let (start, end) = (scale.bin(bounds.min[axis]), scale.border(bounds.max[axis]));
+                bins.starts[axis][start] += 1;
+                bins.ends[axis][end.max(start + 1) % ROOM] += 1;
             }
         }
         bins

@@ -42,14 +42,14 @@ pub(super) struct SideCounts {
 /// A node's cell as the candidates on one axis see it.
 ///
 /// A box's surface is linear in its extent on an axis: `face + rim · extent`, where `face` is the
-/// area of the sides perpendicular to the axis, and `rim` half the length around them.
+/// area of the sides perpendicular to the axis, and `rim` half the length around them; here both
+/// are relative to the surface of the cell.
 pub(super) struct AxisView {
     axis: usize,
     min: f32,
     max: f32,
     face: f64,
     rim: f64,
-    per_surface: f64,
 }
 
 impl AxisView {
@@ -62,7 +62,8 @@ impl AxisView {
             others().filter(|&other| other != skip).map(|other| extent[other]).product::<f64>()
         });
         let (min, max) = (cell.min[axis], cell.max[axis]);
-        let view = Self { axis, min, max, face, rim: rim.sum(), per_surface: 1.0 / surface };
+        let (face, rim): (f64, f64) = (face, rim.sum());
+        let view = Self { axis, min, max, face: face / surface, rim: rim / surface };
         (surface > 0.0).then_some(view)
     }
 
@@ -70,6 +71,19 @@ impl AxisView {
     #[inline]
     pub(super) fn is_inside(&self, position: f32) -> bool {
         self.min < position && position < self.max
+    }
+
+    /// Whether a position, or one above it, may cut the cell.
+    #[inline]
+    pub(super) fn is_below_max(&self, position: f32) -> bool {
+        position < self.max
+    }
+
+    /// The cost of a plane at `position` with so many primitives below and above.
+    #[inline]
+    pub(super) fn cost(&self, cost: &CostModel, position: f32, counts: [usize; 2]) -> f64 {
+        let chance = |min: f32, max: f32| self.face + self.rim * (f64::from(max) - f64::from(min));
+        cost.split([chance(self.min, position), chance(position, self.max)], counts)
     }
 
     /// The plane at `position`, with the planar primitives on the side where they cost less: below
@@ -81,18 +95,14 @@ impl AxisView {
         position: f32,
         counts: SideCounts,
     ) -> Candidate {
-        let chance = |min: f32, max: f32| {
-            (self.face + self.rim * (f64::from(max) - f64::from(min))) * self.per_surface
-        };
-        let chances = [chance(self.min, position), chance(position, self.max)];
         let SideCounts { below, planar, above } = counts;
         let plane = |planar| SplitPlane { axis: self.axis, position, planar };
-        let cost_below = cost.split(chances, [below + planar, above]);
+        let cost_below = self.cost(cost, position, [below + planar, above]);
         let first = Candidate { cost: cost_below, plane: plane(PlanarSide::Below) };
         if planar == 0 {
             return first;
         }
-        let cost_above = cost.split(chances, [below, above + planar]);
+        let cost_above = self.cost(cost, position, [below, above + planar]);
         let second = Candidate { cost: cost_above, plane: plane(PlanarSide::Above) };
         if second.beats(&first) { second } else { first }
     }

@@ -7,7 +7,7 @@ use crate::build::reference::Reference;
 /// A bound of a primitive on one axis, in 8 bytes that sort by position, then kind, then index: an
 /// order-preserving image of the position, two bits of kind, and the index of the reference in its
 /// node.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Event(u64);
 
 /// What happens at an event, in the order in which the sweep must see it.
@@ -21,14 +21,23 @@ pub(super) enum Kind {
     Start = 2,
 }
 
+const SIGN: u32 = 1 << 31;
+
+/// All bits if the highest is set, or none.
+#[inline]
+fn sign_mask(bits: u32) -> u32 {
+    (bits as i32 >> 31) as u32
+}
+
 const INDEX_BITS: u32 = 30;
 const INDEX_MASK: u64 = (1 << INDEX_BITS) - 1;
 
 impl Event {
+    #[inline]
     pub(super) fn new(position: f32, kind: Kind, index: u32) -> Self {
         let bits = position.to_bits();
         // Negative numbers in reverse, below the positive ones.
-        let image = if bits >> 31 == 1 { !bits } else { bits | 1 << 31 };
+        let image = bits ^ (sign_mask(bits) | SIGN);
         Self(u64::from(image) << 32 | (kind as u64) << INDEX_BITS | u64::from(index))
     }
 
@@ -41,13 +50,19 @@ impl Event {
     #[inline]
     pub(super) fn position(self) -> f32 {
         let image = self.image();
-        f32::from_bits(if image >> 31 == 1 { image & !(1 << 31) } else { !image })
+        f32::from_bits(image ^ (sign_mask(!image) | SIGN))
     }
 
     /// The [`Kind`] as a number.
     #[inline]
     pub(super) fn kind(self) -> usize {
         (self.0 >> INDEX_BITS & 3) as usize
+    }
+
+    /// Whether it is planar and at the position of another planar one.
+    #[inline]
+    pub(super) fn is_planar_at(self, other: Self) -> bool {
+        (self.0 ^ other.0) & !INDEX_MASK == 0
     }
 
     #[inline]
@@ -130,7 +145,7 @@ impl EventList {
     }
 }
 
-pub(super) fn push_events<const K: usize>(
+fn push_events<const K: usize>(
     events: &mut Vec<Event>,
     reference: &Reference<K>,
     index: u32,

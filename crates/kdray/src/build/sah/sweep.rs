@@ -60,38 +60,48 @@ impl Sweep {
 
 /// The best candidate on one axis among the positions of `events`. Before the first of them, there
 /// are as many primitives below and above as `counts` says.
+///
+/// Of the events at a position, the last end or planar one, or the first start, sees the right
+/// counts. The others are not told apart from them, which no branch prediction could: they see
+/// higher counts, so they cost no less.
 pub(super) fn sweep(
     cost: &CostModel,
     view: &AxisView,
     events: &[Event],
     counts: [usize; 2],
 ) -> Option<Candidate> {
-    let mut best: Option<Candidate> = None;
-    let mut least = f64::INFINITY;
+    let (mut least, mut best) = (f64::INFINITY, None::<Candidate>);
     let [mut below, mut above] = counts;
-    let mut next = 0;
-    while next < events.len() {
-        let image = events[next].image();
-        let position = events[next].position();
-        // All events at one position: what ends or is planar there is no longer above; what is
-        // planar or starts there is below the next.
-        let (mut ends, mut planar, first) = (0, 0, next);
-        while next < events.len() && events[next].image() == image {
-            ends += usize::from(events[next].kind() == Kind::End as usize);
-            planar += usize::from(events[next].kind() == Kind::Planar as usize);
-            next += 1;
+    let mut rest = events.iter();
+    while let Some(&event) = rest.next() {
+        let position = event.position();
+        if !view.is_below_max(position) {
+            break;
         }
-        above -= planar + ends;
-        if view.is_inside(position) {
-            let counts = SideCounts { below, planar, above };
-            let candidate = view.candidate(cost, position, counts);
-            // Positions rise, so of equal costs the first is the better one.
-            if candidate.cost < least {
-                least = candidate.cost;
-                best = Some(candidate);
+        let is_inside = view.is_inside(position);
+        if event.kind() == Kind::Planar as usize {
+            let others = rest.as_slice().iter().take_while(|other| other.is_planar_at(event));
+            let planar = 1 + others.count();
+            rest = rest.as_slice()[planar - 1..].iter();
+            above -= planar;
+            if is_inside {
+                // An end here has counted the planar ones above without saying so.
+                let candidate = view.candidate(cost, position, SideCounts { below, planar, above });
+                let is_same = best.is_some_and(|best| best.plane.position == position);
+                if candidate.cost < least || candidate.cost == least && is_same {
+                    (least, best) = (candidate.cost, Some(candidate));
+                }
             }
+            below += planar;
+            continue;
         }
-        below += next - first - ends;
+        above -= usize::from(event.kind() == Kind::End as usize);
+        // Positions rise, so of equal costs the first is the better one.
+        if is_inside && view.cost(cost, position, [below, above]) < least {
+            let candidate = view.candidate(cost, position, SideCounts { below, planar: 0, above });
+            (least, best) = (candidate.cost, Some(candidate));
+        }
+        below += usize::from(event.kind() == Kind::Start as usize);
     }
     best
 }
