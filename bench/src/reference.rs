@@ -7,7 +7,7 @@ use crate::contender::{Answers, Found};
 use crate::error::BenchError;
 use crate::rays::{Question, Ray, RaySet};
 use glam::Vec3;
-use kdray::{BuildOptions, Hit, Scene, TriangleMesh};
+use kdray::{BuildOptions, Hit, ShapeScene, TriangleMesh};
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -17,7 +17,7 @@ const TOLERANCE: f64 = 2e-5;
 
 /// The exact traversal.
 pub(crate) struct Reference {
-    scene: Scene,
+    scene: ShapeScene,
 }
 
 /// What is true of the rays of a set.
@@ -48,7 +48,7 @@ pub(crate) fn exact_ray(ray: &Ray) -> kdray::Ray {
 impl Reference {
     /// Builds a tree over the triangles.
     pub(crate) fn build(mesh: &TriangleMesh) -> Result<Self, BenchError> {
-        Ok(Self { scene: Scene::build(mesh.clone(), &BuildOptions::default())? })
+        Ok(Self { scene: ShapeScene::build(mesh.clone(), &BuildOptions::default())? })
     }
 
     /// The closest hits, found on all processors.

@@ -26,14 +26,23 @@ pub(crate) struct PlaneRows {
 }
 
 impl PlaneRows {
+    const BY_OCTANT: [Self; 8] = {
+        let mut all = [Self { near: [0, 1, 2], far: [3, 4, 5] }; 8];
+        let mut i = 0;
+        while i < 24 {
+            let (octant, axis) = (i / 3, i % 3);
+            if octant >> axis & 1 == 1 {
+                (all[octant].near[axis], all[octant].far[axis]) = (axis + 3, axis);
+            }
+            i += 1;
+        }
+        all
+    };
+
     /// Those of an octant.
     #[inline(always)]
-    pub(crate) fn of_octant(octant: usize) -> Self {
-        let upper = |axis: usize| octant >> axis & 1;
-        Self {
-            near: [0, 1, 2].map(|axis| axis + 3 * upper(axis)),
-            far: [0, 1, 2].map(|axis| axis + 3 - 3 * upper(axis)),
-        }
+    pub(crate) fn of_octant(octant: usize) -> &'static Self {
+        &Self::BY_OCTANT[octant & 7]
     }
 }
 

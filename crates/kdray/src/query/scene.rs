@@ -7,7 +7,7 @@ use crate::layout::WideTree;
 use crate::primitives::{Hit, TriangleMesh};
 use crate::simd::InstructionSet;
 use crate::traverse::AllHits;
-use crate::traverse::wide::{AnyHit, ClosestHit, NoAim};
+use crate::traverse::wide::{Any, Closest, NoAim, Single};
 use crate::tree::KdTree;
 use std::ops::ControlFlow;
 
@@ -102,8 +102,8 @@ impl Scene {
     pub fn closest_hit(&self, ray: &Ray) -> Option<Hit> {
         let Some(tree) = &self.wide else { return self.shapes.closest_hit(ray) };
         let found = match self.arithmetic {
-            Arithmetic::Exact => self.instructions.run(ClosestHit::<true> { tree, ray }),
-            Arithmetic::Float => self.instructions.run(ClosestHit::<false> { tree, ray }),
+            Arithmetic::Exact => self.instructions.run(Single::<Closest<true>>::new(tree, ray)),
+            Arithmetic::Float => self.instructions.run(Single::<Closest<false>>::new(tree, ray)),
         };
         match found {
             Ok(hit) => hit,
@@ -117,8 +117,8 @@ impl Scene {
     pub fn any_hit(&self, ray: &Ray) -> bool {
         let Some(tree) = &self.wide else { return self.shapes.any_hit(ray) };
         let found = match self.arithmetic {
-            Arithmetic::Exact => self.instructions.run(AnyHit::<true> { tree, ray }),
-            Arithmetic::Float => self.instructions.run(AnyHit::<false> { tree, ray }),
+            Arithmetic::Exact => self.instructions.run(Single::<Any<true>>::new(tree, ray)),
+            Arithmetic::Float => self.instructions.run(Single::<Any<false>>::new(tree, ray)),
         };
         match found {
             Ok(is_hit) => is_hit,

@@ -2,7 +2,7 @@
 
 use super::block::{EDGE_ERROR, T_ERROR};
 use crate::geometry::{Interval, Ray};
-use crate::layout::{PlaneRows, WideTree};
+use crate::layout::WideTree;
 
 /// Half the distance from 1 to the next f32.
 const ROUNDING: f64 = (f32::EPSILON / 2.0) as f64;
@@ -20,6 +20,9 @@ const FARTHEST: f64 = (1_u64 << 20) as f64;
 /// How far, relative to t, a reported t may be from the true one, with room for the conversion.
 const HIT_ERROR: f64 = 1.0 / (1_u64 << 38) as f64;
 
+/// More than what rounding to f32 changes, relatively.
+const F32_SLACK: f64 = 1.0 / (1 << 22) as f64;
+
 /// A ray in f32: the direction scaled by a power of two so that its largest component is from 1 to
 /// 2, the origin moved along the ray into the tree's reach.
 #[derive(Clone, Copy, Debug)]
@@ -30,7 +33,6 @@ pub(crate) struct Aim {
     pub(super) inverse: [f32; 3],
     /// origin / direction.
     pub(super) start: [f32; 3],
-    pub(super) rows: PlaneRows,
     pub(super) octant: usize,
     /// Where the ray begins and ends, in the kernels' t: not above and not below the true ones.
     pub(super) t_near: f32,
@@ -57,27 +59,42 @@ pub(crate) enum NoAim {
 }
 
 impl Aim {
-    /// Prepares a ray.
+    /// At nothing.
+    pub(super) const NONE: Self = Self {
+        origin: [0.0; 3],
+        direction: [0.0; 3],
+        inverse: [0.0; 3],
+        start: [0.0; 3],
+        octant: 0,
+        t_near: 0.0,
+        t_far: 0.0,
+        edge_error: 0.0,
+        t_error: 0.0,
+        least_distance: 0.0,
+        scale: 0.0,
+        shift: 0.0,
+    };
+
+    /// Prepares a ray. In place: to return an aim costs more than to make one.
     #[inline(always)]
-    pub(crate) fn new(tree: &WideTree, ray: &Ray<3>) -> Result<Self, NoAim> {
-        let reach = f64::from(tree.reach());
+    pub(super) fn set(&mut self, tree: &WideTree, ray: &Ray<3>) -> Result<(), NoAim> {
+        let reach = tree.reach();
         let (largest, farthest) = (size(&ray.direction), size(&ray.origin));
-        let is_plain = SIZES.contains(&largest) && farthest <= reach.to_bits();
         if ray.interval.is_empty() {
             return Err(NoAim::Missed);
         }
-        if !is_plain {
-            return Self::from_afar(reach, ray);
+        if !SIZES.contains(&largest) || farthest > f64::from(reach).to_bits() {
+            return self.set_from_afar(f64::from(reach), ray);
         }
-        let scale = power_of_two_below(largest);
-        let direction = ray.direction.map(|d| d * (1.0 / scale));
-        Self::in_reach(ray.interval, ray.origin, direction, (scale, 0.0), 0.0, reach)
+        (self.scale, self.shift) = (power_of_two_below(largest), 0.0);
+        let direction = ray.direction.map(|d| d * (1.0 / self.scale));
+        self.set_in_reach(ray.interval, &ray.origin, &direction, 0.0, f64::from(reach))
     }
 
     /// A ray that starts beyond the reach, or that is none.
     #[cold]
     #[inline(never)]
-    fn from_afar(reach: f64, ray: &Ray<3>) -> Result<Self, NoAim> {
+    fn set_from_afar(&mut self, reach: f64, ray: &Ray<3>) -> Result<(), NoAim> {
         if ray.check().is_err() {
             return Err(NoAim::Missed);
         }
@@ -85,56 +102,54 @@ impl Aim {
         if !SIZES.contains(&largest) || farthest > reach * FARTHEST {
             return Err(NoAim::OutOfRange);
         }
-        let scale = power_of_two_below(largest);
-        let direction = ray.direction.map(|d| d * (1.0 / scale));
+        self.scale = power_of_two_below(largest);
+        let direction = ray.direction.map(|d| d * (1.0 / self.scale));
         let shift = entry(reach, &ray.origin, &direction).ok_or(NoAim::Missed)?;
+        self.shift = shift;
         let origin = std::array::from_fn(|k| ray.origin[k] + shift * direction[k]);
         let moving = 2.0 * f64::EPSILON * (farthest + 2.0 * shift.abs());
-        Self::in_reach(ray.interval, origin, direction, (scale, shift), moving, reach)
+        self.set_in_reach(ray.interval, &origin, &direction, moving, reach)
     }
 
     /// From the ray's interval, a point of its line within the reach (moving which there erred by
     /// `moving`), and its direction, scaled.
     #[inline(always)]
-    fn in_reach(
+    fn set_in_reach(
+        &mut self,
         interval: Interval,
-        point: [f64; 3],
-        direction: [f64; 3],
-        (scale, shift): (f64, f64),
+        point: &[f64; 3],
+        direction: &[f64; 3],
         moving: f64,
         reach: f64,
-    ) -> Result<Self, NoAim> {
-        let origin = point.map(|o| o as f32);
-        let off = [0, 1, 2].map(|k| (point[k] - f64::from(origin[k])).abs());
-        let error = off[0].max(off[1]).max(off[2]) + moving;
-        let direction = direction.map(|d| d as f32);
-        let inverse = direction.map(|d| 1.0 / d.abs().max(LEAST_COMPONENT).copysign(d));
+    ) -> Result<(), NoAim> {
         // Beyond this the ray has left the reach, and with it the tree, on its largest axis.
         let t_end = 2.5 * reach;
-        let t_slack = (shift.abs() + t_end) * HIT_ERROR;
-        let t_near = (interval.t_min * scale - shift).max(-t_end) - t_slack;
-        let t_far = (interval.t_max * scale - shift).min(t_end) + t_slack;
+        let slack = (self.shift.abs() + t_end) * HIT_ERROR;
+        let t_near = larger(interval.t_min * self.scale - self.shift, -t_end) - slack;
+        let t_far = -larger(self.shift - interval.t_max * self.scale, -t_end) + slack;
         if t_near > t_far {
             return Err(NoAim::Missed);
         }
-        let sign = |k: usize| (inverse[k].to_bits() >> 31) as usize;
-        let octant = sign(0) | sign(1) << 1 | sign(2) << 2;
-        let length = direction[0].abs() + direction[1].abs() + direction[2].abs();
-        Ok(Self {
-            origin,
-            direction,
-            inverse,
-            start: [0, 1, 2].map(|k| origin[k] * inverse[k]),
-            rows: PlaneRows::of_octant(octant),
-            octant,
-            t_near: (t_near as f32).next_down(),
-            t_far: (t_far as f32).next_up(),
-            edge_error: EDGE_ERROR * length,
-            t_error: T_ERROR * length,
-            least_distance: (error / ROUNDING * 0.5) as f32,
-            scale,
-            shift,
-        })
+        self.t_near = (t_near - t_near.abs() * F32_SLACK) as f32;
+        self.t_far = (t_far + t_far.abs() * F32_SLACK) as f32;
+
+        let mut off = 0.0;
+        for k in 0..3 {
+            self.origin[k] = point[k] as f32;
+            off = larger(off, (point[k] - f64::from(self.origin[k])).abs());
+            let d = direction[k] as f32;
+            self.direction[k] = d;
+            let size = if d.abs() > LEAST_COMPONENT { d.abs() } else { LEAST_COMPONENT };
+            self.inverse[k] = 1.0 / size.copysign(d);
+            self.start[k] = self.origin[k] * self.inverse[k];
+        }
+        let [x, y, z] = self.direction;
+        let sign = |d: f32| (d.to_bits() >> 31) as usize;
+        self.octant = sign(x) | sign(y) << 1 | sign(z) << 2;
+        let length = x.abs() + y.abs() + z.abs();
+        (self.edge_error, self.t_error) = (EDGE_ERROR * length, T_ERROR * length);
+        self.least_distance = ((off + moving) * (0.5 / ROUNDING)) as f32;
+        Ok(())
     }
 
     /// What t adds to the error of T − t·den, a unit of ē².
@@ -147,7 +162,8 @@ impl Aim {
     #[inline(always)]
     pub(super) fn kernel_t_above(&self, t: f64) -> f32 {
         let slack = (self.shift.abs() + t.abs() * self.scale) * HIT_ERROR;
-        ((t * self.scale - self.shift + slack) as f32).next_up().next_up()
+        let t = t * self.scale - self.shift + slack;
+        (t + t.abs() * F32_SLACK) as f32
     }
 
     /// The ray's t of a kernel's.
@@ -155,6 +171,12 @@ impl Aim {
     pub(super) fn ray_t(&self, kernel_t: f32) -> f64 {
         (f64::from(kernel_t) + self.shift) / self.scale
     }
+}
+
+/// The larger of two numbers, if none is NaN.
+#[inline(always)]
+fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
 }
 
 /// The bits of the largest size of a component. They are in the order of the numbers; NaN and

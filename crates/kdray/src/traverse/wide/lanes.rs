@@ -24,7 +24,7 @@ pub(super) struct RayLanes<S: Lanes> {
 
 impl<S: Lanes> RayLanes<S> {
     #[inline(always)]
-    pub(super) fn new(simd: S, aim: &Aim) -> Self {
+    pub(super) fn new(simd: S, aim: &Aim, t_far: f32) -> Self {
         let all = |v: [f32; 3]| v.map(|x| f32x8::splat(simd, x));
         Self {
             origin: all(aim.origin),
@@ -32,9 +32,9 @@ impl<S: Lanes> RayLanes<S> {
             inverse: all(aim.inverse),
             start: all(aim.start),
             t_near: f32x8::splat(simd, aim.t_near),
-            t_far: f32x8::splat(simd, aim.t_far),
+            t_far: f32x8::splat(simd, t_far),
             near_error: f32x8::splat(simd, aim.error_at(aim.t_near)),
-            far_error: f32x8::splat(simd, aim.error_at(aim.t_far)),
+            far_error: f32x8::splat(simd, aim.error_at(t_far)),
         }
     }
 

@@ -9,9 +9,11 @@ mod aim;
 mod block;
 mod float;
 mod lanes;
+mod search;
 mod single;
 mod slab;
 mod stack;
 
 pub(crate) use aim::NoAim;
-pub(crate) use single::{AnyHit, ClosestHit};
+pub(crate) use search::{Any, Closest};
+pub(crate) use single::Single;

@@ -3,7 +3,7 @@
 use super::aim::Aim;
 use super::lanes::RayLanes;
 use super::stack::Stack;
-use crate::layout::{Link, WideNode};
+use crate::layout::{Link, PlaneRows, WideNode};
 use crate::simd::{Lanes, Lists};
 use fearless_simd::prelude::*;
 use fearless_simd::{f32x8, u32x8};
@@ -23,7 +23,7 @@ pub(super) fn nearest_child<S: Lanes>(
         let planes = f32x8::load_array_ref(simd, node.planes(row));
         planes.mul_sub(ray.inverse[axis], ray.start[axis])
     };
-    let (near, far) = (aim.rows.near, aim.rows.far);
+    let PlaneRows { near, far } = PlaneRows::of_octant(aim.octant);
     let t_near = t(near[0], 0).max(t(near[1], 1)).max(t(near[2], 2).max(ray.t_near));
     let t_far = t(far[0], 0).min(t(far[1], 1)).min(t(far[2], 2).min(ray.t_far));
     let met = t_near.simd_le(t_far);
