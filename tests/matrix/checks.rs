@@ -3,7 +3,7 @@
 use crate::cases::{Aimed, Case};
 use kdray::geometry::BoundingSphere;
 use kdray::traverse::Naive;
-use kdray::{BuildOptions, Hit, KdTree, ShapeScene};
+use kdray::{BuildOptions, Hit, InstructionSet, KdTree, Scene, ShapeScene, TriangleMesh};
 use kdray_tests::Subject;
 use kdray_tests::oracle::{agrees_on_all, agrees_on_closest};
 use kdray_tests::rays::Archer;
@@ -21,21 +21,48 @@ pub(crate) fn on_each<S: Subject<K> + Clone + Send + Sync, const K: usize>(
 ) {
     for case in cases {
         let scene = ShapeScene::build(case.subject.clone(), options).expect("cases are valid");
-        let mut archer = Archer::new(&case.subject, case.seed);
-        let in_planes: Vec<_> = archer
-            .in_split_planes(scene.tree(), IN_SPLIT_PLANES)
-            .into_iter()
-            .map(|ray| Aimed::new(&case.subject, ray))
-            .collect();
-        let aimed: Vec<_> = case.aimed.iter().chain(&in_planes).collect();
-        let wrong = |(index, aimed): (usize, &&Aimed<K>)| {
-            let error = check(&scene, aimed).err()?;
-            Some(format!("case {:?}, ray {index}, {:?}: {error}", case.name, aimed.ray))
-        };
-        let wrong: Vec<_> = aimed.par_iter().enumerate().filter_map(wrong).collect();
-        if let Some(first) = wrong.first() {
-            panic!("{} of {} rays: {first}", wrong.len(), aimed.len());
-        }
+        on_rays(case, scene.tree(), |aimed| check(&scene, aimed));
+    }
+}
+
+/// The same for the kernels of an instruction set, if this processor has it.
+pub(crate) fn on_each_mesh(
+    options: &BuildOptions,
+    cases: &[Case<TriangleMesh, 3>],
+    instructions: &str,
+    check: impl Fn(&Scene, &Aimed<3>) -> Result<(), String> + Sync,
+) {
+    let instructions = match InstructionSet::of_name(instructions) {
+        Ok(instructions) => instructions,
+        Err(unknown) => return eprintln!("not run: {unknown}"),
+    };
+    for case in cases {
+        let scene = Scene::build(case.subject.clone(), options).expect("cases are valid");
+        let scene = scene.with_instructions(instructions);
+        on_rays(case, scene.tree(), |aimed| check(&scene, aimed));
+    }
+}
+
+/// Checks the answers to the rays of a case, and to rays in the split planes of its tree.
+fn on_rays<S: Subject<K> + Send + Sync, const K: usize>(
+    case: &Case<S, K>,
+    tree: &KdTree<K>,
+    check: impl Fn(&Aimed<K>) -> Result<(), String> + Sync,
+) {
+    let mut archer = Archer::new(&case.subject, case.seed);
+    let in_planes: Vec<_> = archer
+        .in_split_planes(tree, IN_SPLIT_PLANES)
+        .into_iter()
+        .map(|ray| Aimed::new(&case.subject, ray))
+        .collect();
+    let aimed: Vec<_> = case.aimed.iter().chain(&in_planes).collect();
+    let wrong = |(index, aimed): (usize, &&Aimed<K>)| {
+        let error = check(aimed).err()?;
+        Some(format!("case {:?}, ray {index}, {:?}: {error}", case.name, aimed.ray))
+    };
+    let wrong: Vec<_> = aimed.par_iter().enumerate().filter_map(wrong).collect();
+    if let Some(first) = wrong.first() {
+        panic!("{} of {} rays: {first}", wrong.len(), aimed.len());
     }
 }
 
@@ -109,6 +136,16 @@ pub(crate) fn count<S: Subject<K>, const K: usize>(
     aimed: &Aimed<K>,
 ) -> Result<(), String> {
     same(&scene.count(&aimed.ray), &aimed.crossed.naive.len())
+}
+
+/// The kernels' closest hit, the same as without a tree to the last bit.
+pub(crate) fn kernel_closest_hit(scene: &Scene, aimed: &Aimed<3>) -> Result<(), String> {
+    same(&scene.closest_hit(&aimed.ray), &aimed.touched.naive.first().copied())
+}
+
+/// Whether the kernels find anything.
+pub(crate) fn kernel_any_hit(scene: &Scene, aimed: &Aimed<3>) -> Result<(), String> {
+    same(&scene.any_hit(&aimed.ray), &!aimed.touched.naive.is_empty())
 }
 
 /// The naive answer, with a sphere for the bounding volume that is tested first.

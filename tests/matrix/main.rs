@@ -1,11 +1,13 @@
 //! Every strategy, kind of primitive and query, against the answer of testing every primitive and
-//! against rational arithmetic. A test's name says which: `sah::triangles::closest_hit`.
+//! against rational arithmetic. A test's name says which: `sah::triangles::closest_hit`; those of
+//! the kernels name their instruction set: `sah::kernels::avx2::closest_hit`.
 
 mod cases;
 mod checks;
 
 use cases::{BALLS_2D, BALLS_3D, SEGMENTS, TRIANGLES};
 use checks::{all_hits, all_touched, any_hit, closest_hit, count};
+use checks::{kernel_any_hit, kernel_closest_hit};
 use kdray::build::SahBuilder;
 use kdray::{BuildOptions, Strategy};
 
@@ -29,6 +31,32 @@ macro_rules! queries {
     };
 }
 
+macro_rules! kernels {
+    ($($instructions:ident)*) => {
+        mod kernels {
+            use super::*;
+
+            $(
+                mod $instructions {
+                    use super::*;
+
+                    #[test]
+                    fn closest_hit() {
+                        let set = stringify!($instructions);
+                        checks::on_each_mesh(&options(), &TRIANGLES, set, kernel_closest_hit);
+                    }
+
+                    #[test]
+                    fn any_hit() {
+                        let set = stringify!($instructions);
+                        checks::on_each_mesh(&options(), &TRIANGLES, set, kernel_any_hit);
+                    }
+                }
+            )*
+        }
+    };
+}
+
 macro_rules! builder {
     ($name:ident, $options:expr) => {
         mod $name {
@@ -42,6 +70,7 @@ macro_rules! builder {
             queries!(segments, SEGMENTS, closest_hit any_hit all_hits all_touched count);
             queries!(balls_2d, BALLS_2D, closest_hit any_hit all_hits all_touched count);
             queries!(balls_3d, BALLS_3D, closest_hit any_hit all_hits all_touched count);
+            kernels!(portable neon avx2 avx512);
         }
     };
 }

@@ -1,7 +1,8 @@
 //! Exact ray queries on triangle meshes, through SAH kd-trees.
 //!
 //! The pipeline, in the order of the modules:
-//! [`geometry`] → [`exact`] → [`primitives`] → [`tree`] → [`build`] → [`traverse`] → [`query`].
+//! [`geometry`] → [`exact`] → [`primitives`] → [`tree`] → [`build`] → [`simd`] → [`layout`] →
+//! [`traverse`] → [`query`].
 //!
 //! Most users need four names: [`TriangleMesh`], [`Scene`], [`Ray`] and [`Hit`].
 

@@ -1,6 +1,7 @@
 //! The public face: scenes that answer queries.
 
 mod arithmetic;
+mod batch;
 mod scene;
 mod shape_scene;
 

@@ -30,9 +30,9 @@ use std::ops::ControlFlow;
 #[derive(Clone, Debug)]
 pub struct Scene {
     shapes: ShapeScene<TriangleMesh>,
-    wide: Option<WideTree>,
-    arithmetic: Arithmetic,
-    instructions: InstructionSet,
+    pub(super) wide: Option<WideTree>,
+    pub(super) arithmetic: Arithmetic,
+    pub(super) instructions: InstructionSet,
 }
 
 impl Scene {

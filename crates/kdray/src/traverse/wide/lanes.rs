@@ -10,7 +10,7 @@ pub(super) type Vector<S> = [f32x8<S>; 3];
 
 /// What the slab test and the triangle test need of a ray, in all lanes.
 #[derive(Clone, Copy)]
-pub(super) struct RayLanes<S: Lanes> {
+pub(crate) struct RayLanes<S: Lanes> {
     pub(super) origin: Vector<S>,
     pub(super) direction: Vector<S>,
     pub(super) inverse: Vector<S>,

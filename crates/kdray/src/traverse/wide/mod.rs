@@ -6,6 +6,7 @@
 //! hits are the same to the last bit as those of every other traversal.
 
 mod aim;
+mod batch;
 mod block;
 mod float;
 mod lanes;
@@ -15,5 +16,6 @@ mod slab;
 mod stack;
 
 pub(crate) use aim::NoAim;
-pub(crate) use search::{Any, Closest};
+pub(crate) use batch::Batch;
+pub(crate) use search::{Any, Closest, Search};
 pub(crate) use single::Single;

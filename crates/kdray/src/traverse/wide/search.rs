@@ -11,9 +11,9 @@ use crate::simd::Lanes;
 use fearless_simd::prelude::*;
 
 /// A search along one ray: all that the traversals do not share.
-pub(crate) trait Search {
-    /// What is found.
-    type Answer;
+pub(crate) trait Search: Sized {
+    /// What is found; by default nothing.
+    type Answer: Default;
 
     /// Nothing is found yet.
     fn new(ray: &Ray<3>, aim: &Aim) -> Self;

@@ -18,6 +18,13 @@ impl Stack {
         Self { t: ArrayVec::new(), links: ArrayVec::new() }
     }
 
+    /// Forgets all.
+    #[inline(always)]
+    pub(super) fn clear(&mut self) {
+        self.t.clear();
+        self.links.clear();
+    }
+
     /// Adds the first `count` of eight, of which the last is visited next. There is always room
     /// for all eight: the layout sees to it.
     #[inline(always)]

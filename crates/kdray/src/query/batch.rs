@@ -1,0 +1,122 @@
+//! Many rays at once.
+
+use super::{Arithmetic, Scene};
+use crate::geometry::Ray;
+use crate::layout::WideTree;
+use crate::primitives::Hit;
+use crate::traverse::wide::{Any, Batch, Closest, Search};
+
+/// Trees of more bytes are searched by the batch kernel. It takes more instructions than one ray
+/// after the other, but waits less: for memory that is not in the caches, above all.
+const BATCH_PAYS: usize = 8 << 20;
+
+impl Scene {
+    /// [`closest_hit`](Self::closest_hit) of each ray, on this thread: `hits[i]` is that of
+    /// `rays[i]`. Takes no memory.
+    ///
+    /// Faster than one ray after the other on large trees.
+    ///
+    /// # Panics
+    /// If the slices differ in length.
+    pub fn closest_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
+        assert_eq!(rays.len(), hits.len(), "as many hits as rays");
+        self.each_closest_hit(rays.iter().copied(), |index, hit| hits[index] = hit);
+    }
+
+    /// [`any_hit`](Self::any_hit) of each ray, on this thread: `found[i]` is that of `rays[i]`.
+    /// Takes no memory.
+    ///
+    /// # Panics
+    /// If the slices differ in length.
+    pub fn any_hits(&self, rays: &[Ray], found: &mut [bool]) {
+        assert_eq!(rays.len(), found.len(), "as many answers as rays");
+        self.each_any_hit(rays.iter().copied(), |index, is_hit| found[index] = is_hit);
+    }
+
+    /// [`closest_hits`](Self::closest_hits) on all threads of the current rayon pool.
+    ///
+    /// # Panics
+    /// If the slices differ in length.
+    #[cfg(feature = "rayon")]
+    pub fn par_closest_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
+        assert_eq!(rays.len(), hits.len(), "as many hits as rays");
+        par_chunks(rays, hits, |rays, hits| self.closest_hits(rays, hits));
+    }
+
+    /// [`any_hits`](Self::any_hits) on all threads of the current rayon pool.
+    ///
+    /// # Panics
+    /// If the slices differ in length.
+    #[cfg(feature = "rayon")]
+    pub fn par_any_hits(&self, rays: &[Ray], found: &mut [bool]) {
+        assert_eq!(rays.len(), found.len(), "as many answers as rays");
+        par_chunks(rays, found, |rays, found| self.any_hits(rays, found));
+    }
+
+    /// Streams rays: takes them from `rays` as it goes, and gives `found` the number of each ray,
+    /// from zero, with its [`closest_hit`](Self::closest_hit). Answers come once each, nearly but
+    /// not wholly in the order of the rays.
+    ///
+    /// ```
+    /// # use kdray::{BuildOptions, Ray, Scene, TriangleMesh};
+    /// # let corners = vec![[0.0, 0.0, 2.0], [1.0, 0.0, 2.0], [0.0, 1.0, 2.0]];
+    /// # let scene = Scene::build(TriangleMesh::new(corners, vec![[0, 1, 2]])?, &Default::default())?;
+    /// let rays = (0..10).map(|i| Ray::new([0.25 * f64::from(i), 0.25, 0.0], [0.0, 0.0, 1.0]));
+    /// let mut hits = 0;
+    /// scene.each_closest_hit(rays, |_, hit| hits += usize::from(hit.is_some()));
+    /// assert_eq!(hits, 4);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn each_closest_hit(
+        &self,
+        rays: impl IntoIterator<Item = Ray>,
+        found: impl FnMut(usize, Option<Hit>),
+    ) {
+        let one = |ray: &Ray| self.closest_hit(ray);
+        match self.arithmetic {
+            Arithmetic::Exact => self.each::<Closest<true>>(rays, one, found),
+            Arithmetic::Float => self.each::<Closest<false>>(rays, one, found),
+        }
+    }
+
+    /// Streams rays like [`each_closest_hit`](Self::each_closest_hit), and tells whether each has
+    /// [`any_hit`](Self::any_hit).
+    pub fn each_any_hit(
+        &self,
+        rays: impl IntoIterator<Item = Ray>,
+        found: impl FnMut(usize, bool),
+    ) {
+        let one = |ray: &Ray| self.any_hit(ray);
+        match self.arithmetic {
+            Arithmetic::Exact => self.each::<Any<true>>(rays, one, found),
+            Arithmetic::Float => self.each::<Any<false>>(rays, one, found),
+        }
+    }
+
+    /// Searches along each of `rays`, by the kernel that suits the tree's size.
+    fn each<Q: Search>(
+        &self,
+        rays: impl IntoIterator<Item = Ray>,
+        one: impl Fn(&Ray) -> Q::Answer,
+        mut found: impl FnMut(usize, Q::Answer),
+    ) {
+        let rays = rays.into_iter();
+        match self.wide.as_ref().filter(|tree| suits_batches(tree)) {
+            Some(tree) => self.instructions.run(Batch::<Q, _, _, _>::new(tree, rays, one, found)),
+            None => rays.enumerate().for_each(|(index, ray)| found(index, one(&ray))),
+        }
+    }
+}
+
+fn suits_batches(tree: &WideTree) -> bool {
+    tree.bytes() > BATCH_PAYS
+}
+
+/// Hands `rays` to several threads, with the room for their answers.
+#[cfg(feature = "rayon")]
+fn par_chunks<T: Send>(rays: &[Ray], answers: &mut [T], answer: impl Fn(&[Ray], &mut [T]) + Sync) {
+    use rayon::prelude::*;
+    const CHUNK: usize = 4096;
+    let chunks = rays.par_chunks(CHUNK).zip(answers.par_chunks_mut(CHUNK));
+    chunks.for_each(|(rays, answers)| answer(rays, answers));
+}
