@@ -99,7 +99,7 @@ impl CostModel {
         intersection: 2.0,
         leaf: 0.5,
         block: 8,
-        empty_bonus: 0.2,
+        empty_bonus: 0.3,
         termination: Termination::Automatic,
     };
 
