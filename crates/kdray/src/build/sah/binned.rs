@@ -109,13 +109,13 @@ impl Binned {
         bins: &Bins<K>,
     ) -> Option<(usize, Candidate)> {
         let (mut least, mut best) = (f64::INFINITY, None);
-        for axis in 0..K {
+        for (axis, scale) in scales.iter().enumerate() {
             let view = AxisView::new(node.cell, axis)?;
             let (mut below, mut above) = (0, node.references.len());
             for border in 1..bins_for(node.references.len()) {
                 below += bins.starts[axis][border - 1] as usize;
                 above -= bins.ends[axis][border] as usize;
-                let position = scales[axis].position(border);
+                let position = scale.position(border);
                 let cost = view.cost(&self.cost, position, [below, above]);
                 if cost < least && view.is_inside(position) {
                     let plane = SplitPlane { axis, position, planar: PlanarSide::Above };
