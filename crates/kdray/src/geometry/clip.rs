@@ -64,16 +64,13 @@ pub fn split_bounds<const K: usize>(
 ) -> [Option<Aabb<K>>; 2] {
     assert!(polygon.len() + 2 * K <= MOST_VERTICES, "a polygon of {} vertices", polygon.len());
     let whole = Aabb::of_points(polygon.iter().copied());
-    let pad = pad(&whole, cell);
     let mut buffers: [Polygon<K>; 2] = [Polygon::new(), Polygon::new()];
-    let part = clipped(polygon, &whole, cell, pad, &mut buffers);
-    let plane = f64::from(position);
-    let planes =
-        [Cut { axis, plane: plane + pad, side: -1.0 }, Cut { axis, plane: plane - pad, side: 1.0 }];
+    let part = clipped(polygon, &whole, cell, pad(&whole, cell), &mut buffers);
     let (below, above) = cell.split(axis, position);
-    let bounds = planes.map(|cut| bounds_beyond(part, &cut, pad));
-    [(bounds[0], below), (bounds[1], above)].map(|(bounds, cell)| {
-        let bounds = bounds.intersection(&whole.intersection(&cell));
+    [(below, -1.0), (above, 1.0)].map(|(half, side)| {
+        let pad = pad(&whole, &half);
+        let cut = Cut { axis, plane: f64::from(position) - side * pad, side };
+        let bounds = bounds_beyond(part, &cut, pad).intersection(&whole.intersection(&half));
         (!bounds.is_empty()).then_some(bounds)
     })
 }
