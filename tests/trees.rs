@@ -1,6 +1,6 @@
-//! Trees of every strategy over the smaller scenes beside the checkout are valid.
+//! Trees of every strategy and preset over the smaller scenes beside the checkout are valid.
 
-use kdray::{BuildOptions, KdTree, Strategy};
+use kdray::{BuildOptions, KdTree, Preset, Strategy};
 use kdray_tests::shared::{load_mesh, scenes};
 
 /// Scenes up to this many triangles are built.
@@ -11,7 +11,8 @@ fn scenes_have_valid_trees_below_the_quota() {
     for info in scenes().into_iter().flatten().filter(|info| info.triangles <= MOST) {
         let mesh = load_mesh(&info).expect("the scene loads");
         let count = mesh.triangles().len();
-        for options in Strategy::ALL.map(BuildOptions::for_strategy) {
+        let strategies = Strategy::ALL.map(BuildOptions::for_strategy);
+        for options in strategies.into_iter().chain(Preset::ALL.map(BuildOptions::preset)) {
             let tree = KdTree::build(&mesh, &options).expect("the scene is valid");
             assert_eq!(tree.validate(&mesh), Ok(()), "{}, {options:?}", info.name);
             let references = tree.stats(count, &options.cost).references;

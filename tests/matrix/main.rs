@@ -9,7 +9,7 @@ use cases::{BALLS_2D, BALLS_3D, SEGMENTS, TRIANGLES};
 use checks::{all_hits, all_touched, any_hit, closest_hit, count};
 use checks::{kernel_any_hit, kernel_closest_hit};
 use kdray::build::SahBuilder;
-use kdray::{BuildOptions, Strategy};
+use kdray::{BuildOptions, Preset, Strategy};
 
 macro_rules! queries {
     ($kind:ident, $cases:expr, $($query:ident)*) => {
@@ -86,4 +86,11 @@ builder!(median, deep(Strategy::Median));
 builder!(round_robin, deep(Strategy::RoundRobin));
 builder!(sah, deep(Strategy::Sah));
 builder!(sah_naive, BuildOptions { sah_builder: SahBuilder::Naive, ..deep(Strategy::Sah) });
+builder!(
+    binned,
+    BuildOptions { sah_builder: SahBuilder::Binned { sweep_below: 0 }, ..deep(Strategy::Sah) }
+);
+builder!(fast, BuildOptions::preset(Preset::Fast));
+builder!(balanced, BuildOptions::preset(Preset::Balanced));
+builder!(best, BuildOptions::preset(Preset::Best));
 builder!(one_leaf, BuildOptions { leaf_size: usize::MAX, ..BuildOptions::default() });

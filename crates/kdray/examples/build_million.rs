@@ -1,8 +1,8 @@
-//! How long a tree over a million triangles takes, by every strategy:
-//! `cargo run --release -p kdray --example build_million [terrain|soup] [TRIANGLES] [sah|...]`,
+//! How long a tree over a million triangles takes, by every strategy and preset:
+//! `cargo run --release -p kdray --example build_million [terrain|soup] [TRIANGLES] [sah|fast|...]`,
 //! under `/usr/bin/time -v` also the peak of memory. `RAYON_NUM_THREADS` sets the threads.
 
-use kdray::{BuildOptions, KdTree, Strategy, TriangleMesh};
+use kdray::{BuildOptions, KdTree, Preset, Strategy, TriangleMesh};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use std::error::Error;
@@ -54,18 +54,23 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
     let kind = arguments.next().unwrap_or("terrain".to_owned());
     let triangles = arguments.next().map_or(Ok(1_000_000), |n| n.parse())?;
-    let only: Option<Strategy> = arguments.next().map(|name| name.parse()).transpose()?;
+    let only = arguments.next();
     let mesh = if kind == "soup" { soup(triangles)? } else { terrain(triangles)? };
     let mut out = std::io::stdout().lock();
-    for strategy in only.map_or(Strategy::ALL.to_vec(), |only| vec![only]) {
-        let options = BuildOptions::for_strategy(strategy);
+    let strategies = Strategy::ALL.map(|s| (s.name(), BuildOptions::for_strategy(s)));
+    let presets = Preset::ALL.map(|preset| (preset.name(), BuildOptions::preset(preset)));
+    let is_wanted = |name: &str| only.as_ref().is_none_or(|only| only == name);
+    for (name, options) in strategies.into_iter().chain(presets) {
+        if !is_wanted(name) {
+            continue;
+        }
         let start = Instant::now();
         let tree = KdTree::build(&mesh, &options)?;
         let seconds = start.elapsed().as_secs_f64();
         let stats = tree.stats(mesh.triangles().len(), &options.cost);
         writeln!(
             out,
-            "{strategy}: {seconds:.2} s, {} triangles, {} nodes, depth {}, {:.2} references a \
+            "{name}: {seconds:.2} s, {} triangles, {} nodes, depth {}, {:.2} references a \
              triangle, SAH cost {:.1}, {:.1} MB",
             stats.primitives,
             stats.nodes,

@@ -18,7 +18,7 @@ pub mod simd;
 pub mod traverse;
 pub mod tree;
 
-pub use build::{BuildError, BuildOptions, BuildProgress, CostModel, Strategy};
+pub use build::{BuildError, BuildOptions, BuildProgress, CostModel, Preset, Strategy};
 pub use geometry::{Aabb, Interval, Ray, RayError};
 pub use primitives::{Hit, MeshError, Side, TriangleMesh};
 pub use query::{Arithmetic, Scene, ShapeScene};

@@ -5,11 +5,11 @@
 
 mod build_common;
 
-use build_common::{all_options, balls, mesh, random_soup, small_plans, small_soups};
-use kdray::build::SahBuilder;
+use build_common::{all_options, balls, binned_deep, mesh, random_soup, small_plans, small_soups};
+use kdray::build::{SahBuilder, Termination};
 use kdray::primitives::Primitives;
-use kdray::tree::MAX_DEPTH;
-use kdray::{BuildOptions, CostModel, KdTree, Strategy};
+use kdray::tree::{MAX_DEPTH, NodeKind};
+use kdray::{Aabb, BuildOptions, CostModel, KdTree, Preset, Strategy, TriangleMesh};
 
 /// The tree, after checks that hold for all.
 fn checked_tree<const K: usize>(
@@ -42,9 +42,9 @@ fn every_strategy_builds_valid_trees() {
 
 #[test]
 fn the_sweep_and_the_naive_builder_give_the_same_tree() {
-    let tuned = BuildOptions::default();
+    let tuned = BuildOptions::for_strategy(Strategy::Sah);
     let lecture = BuildOptions { cost: CostModel::LECTURE, leaf_size: 3, ..tuned };
-    for sweep in [tuned, lecture] {
+    for sweep in [tuned, lecture, BuildOptions::preset(Preset::Best)] {
         let naive = BuildOptions { sah_builder: SahBuilder::Naive, ..sweep };
         for (name, soup) in small_soups() {
             let mesh = mesh(soup);
@@ -58,6 +58,83 @@ fn the_sweep_and_the_naive_builder_give_the_same_tree() {
         let balls = balls(200);
         assert!(KdTree::build(&balls, &sweep).unwrap() == KdTree::build(&balls, &naive).unwrap());
     }
+}
+
+#[test]
+fn the_binned_builder_at_small_nodes_is_the_sweep() {
+    let sweep = BuildOptions::for_strategy(Strategy::Sah);
+    let sah_builder = SahBuilder::Binned { sweep_below: usize::MAX };
+    for (name, soup) in small_soups() {
+        let mesh = mesh(soup);
+        let binned = KdTree::build(&mesh, &BuildOptions { sah_builder, ..sweep }).unwrap();
+        assert!(binned == KdTree::build(&mesh, &sweep).unwrap(), "{name}");
+    }
+}
+
+#[test]
+fn the_binned_builder_is_nearly_as_good_as_the_sweep() {
+    for (size, snapped) in [(0.02, false), (0.1, false), (0.3, true)] {
+        let mesh = mesh(random_soup(5000, size, snapped, 16));
+        let sweep = BuildOptions::for_strategy(Strategy::Sah);
+        let cost = |options| {
+            let tree = checked_tree("soup", &mesh, &options);
+            tree.stats(mesh.count(), &options.cost).sah_cost
+        };
+        let (binned, best) = (cost(binned_deep()), cost(sweep));
+        assert!(binned < 1.1 * best, "size {size}: {binned}, by the sweep {best}");
+    }
+}
+
+/// What pruning weighs: the cost of all nodes by the boxes around what they list.
+fn tight_cost(tree: &KdTree, mesh: &TriangleMesh, cost: &CostModel) -> f64 {
+    let cells: Vec<_> = tree.cells().collect();
+    let mut tight = vec![Aabb::EMPTY; cells.len()];
+    let surface = |aabb: &Aabb| if aabb.is_empty() { 0.0 } else { aabb.half_surface() };
+    let mut sum = 0.0;
+    for (node, cell) in cells.iter().enumerate().rev() {
+        if let NodeKind::Inner { above, .. } = tree.nodes()[node].kind() {
+            tight[node] = tight[node + 1].union(&tight[above as usize]);
+            sum += surface(&tight[node]) * cost.traversal;
+        } else {
+            let list = tree.leaf_primitives(node as u32);
+            let parts = list.iter().filter_map(|&id| mesh.clipped_bounds(id, &cell.bounds));
+            tight[node] = parts.fold(Aabb::EMPTY, |all, part| all.union(&part));
+            sum += surface(&tight[node]) * cost.leaf(list.len());
+        }
+    }
+    sum
+}
+
+#[test]
+fn pruning_makes_trees_smaller_and_no_dearer() {
+    let mut pruned_some = 0;
+    for (name, soup) in small_soups() {
+        let mesh = mesh(soup);
+        for cost in [CostModel::default(), CostModel::BLOCKS_OF_8] {
+            let uncut = BuildOptions { cost, ..BuildOptions::for_strategy(Strategy::Sah) };
+            let pruned = BuildOptions { prune: true, ..uncut };
+            let [before, after] = [uncut, pruned].map(|o| checked_tree(name, &mesh, &o));
+            let [dearer, cheaper] = [&before, &after].map(|tree| tight_cost(tree, &mesh, &cost));
+            assert!(cheaper <= dearer * (1.0 + 1e-6), "{name}: {cheaper}, uncut {dearer}");
+            assert!(after.nodes().len() <= before.nodes().len(), "{name}");
+            pruned_some += usize::from(after.nodes().len() < before.nodes().len());
+        }
+    }
+    assert!(pruned_some > 10, "{pruned_some}");
+}
+
+#[test]
+fn what_is_pruned_lists_each_primitive_once() {
+    let mesh = mesh(random_soup(12, 1.5, false, 17));
+    // Whatever it costs, all is cut three times; then no cut is worth a step.
+    let termination = Termination::LimitsOnly;
+    let cost = CostModel { traversal: 1e9, termination, ..CostModel::BLOCKS_OF_8 };
+    let cut =
+        BuildOptions { cost, max_depth: Some(3), ..BuildOptions::for_strategy(Strategy::Sah) };
+    assert!(checked_tree("cut", &mesh, &cut).stats(12, &cost).references > 12);
+    let tree = checked_tree("pruned", &mesh, &BuildOptions { prune: true, ..cut });
+    assert_eq!(tree.nodes().len(), 1);
+    assert_eq!(tree.leaf_primitives(0), (0..12).collect::<Vec<_>>());
 }
 
 #[test]

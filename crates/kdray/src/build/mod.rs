@@ -2,7 +2,8 @@
 //!
 //! The steps ask a strategy for one thing only, the plane: [`Strategy::Middle`],
 //! [`Strategy::Median`] and [`Strategy::RoundRobin`] find it by a rule, [`Strategy::Sah`] by least
-//! cost under a [`CostModel`], from candidates that [`SahBuilder`] says how to count.
+//! cost under a [`CostModel`], from candidates that [`SahBuilder`] says how to count. A [`Preset`]
+//! is a choice of all that for a purpose.
 //!
 //! The tree is the same bit for bit on every run and for any number of threads. What a build may
 //! take is bounded: leaves list at most [`BuildOptions::reference_quota`] entries together.
@@ -14,6 +15,7 @@ mod middle;
 mod options;
 mod parallel;
 mod plane;
+mod preset;
 mod progress;
 mod reference;
 mod round_robin;
@@ -25,6 +27,7 @@ mod subtree;
 pub use crate::tree::{CostModel, CostModelError, Termination};
 pub use error::BuildError;
 pub use options::{BuildOptions, SahBuilder};
+pub use preset::{Preset, UnknownPreset};
 pub use progress::BuildProgress;
 pub use strategy::{Strategy, UnknownStrategy};
 
@@ -63,8 +66,21 @@ impl<const K: usize> KdTree<K> {
         Ok(Self::build_all(primitives, options, progress, false)?.0)
     }
 
-    /// Builds the tree, and, if `keep_bounds` says so, the bounds of the part of each of its
-    /// references in its leaf.
+    /// Builds the tree, and beside it a box for each of its references: that of the primitive's
+    /// part in the leaf, as clipped on the way down. What stores tight boxes need not clip again.
+    ///
+    /// # Errors
+    /// See [`BuildError`].
+    #[cfg_attr(not(test), expect(dead_code, reason = "layouts with tight boxes will take it"))]
+    pub(crate) fn build_with_bounds(
+        primitives: &impl Primitives<K>,
+        options: &BuildOptions,
+        progress: &(dyn Fn(BuildProgress) -> ControlFlow<()> + Sync),
+    ) -> Result<(Self, Vec<Aabb<K>>), BuildError> {
+        Self::build_all(primitives, options, progress, true)
+    }
+
+    /// Builds the tree and, if `keep_bounds` says so, the boxes of its references.
     fn build_all(
         primitives: &impl Primitives<K>,
         options: &BuildOptions,
@@ -88,6 +104,47 @@ impl<const K: usize> KdTree<K> {
             (Strategy::Sah, SahBuilder::Naive) => build!(sah::Naive { cost }),
             (Strategy::Sah, SahBuilder::Binned { sweep_below }) => {
                 build!(sah::Binned { cost, sweep_below })
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::primitives::TriangleMesh;
+    use rand::{RngExt, SeedableRng};
+
+    fn soup() -> TriangleMesh {
+        let mut random = rand_pcg::Pcg64::seed_from_u64(1);
+        let triangles = (0..6000).map(|_| {
+            let center = [0; 3].map(|_| random.random::<f32>());
+            [0; 3].map(|_| center.map(|x| x + 0.2 * random.random::<f32>()))
+        });
+        TriangleMesh::from_soup(triangles).unwrap()
+    }
+
+    #[test]
+    fn bounds_come_with_each_reference() {
+        let mesh = soup();
+        for options in Preset::ALL.map(BuildOptions::preset) {
+            let go_on = |_| ControlFlow::Continue(());
+            let (tree, bounds) = KdTree::build_with_bounds(&mesh, &options, &go_on).unwrap();
+            assert!(tree == KdTree::build(&mesh, &options).unwrap(), "{options:?}");
+            assert_eq!(bounds.len(), tree.references.len());
+            let mut rest = &bounds[..];
+            for cell in tree.cells() {
+                for &id in tree.leaf_primitives(cell.node) {
+                    let found;
+                    (found, rest) = (rest[0], &rest[1..]);
+                    assert_eq!(found.union(&cell.bounds), cell.bounds, "in the cell");
+                    // Looser than the true bounds by rounding at most.
+                    let part = mesh.clipped_bounds(id, &cell.bounds).unwrap_or(found);
+                    let near = |a: &[f32; 3], b: &[f32; 3]| {
+                        a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-6)
+                    };
+                    assert!(near(&found.min, &part.min) && near(&found.max, &part.max));
+                }
             }
         }
     }

@@ -1,6 +1,6 @@
 //! What to build.
 
-use super::{CostModel, Strategy};
+use super::{CostModel, Preset, Strategy};
 use crate::tree::MAX_DEPTH;
 
 /// How [`Strategy::Sah`] finds the plane of least cost. [`Sweep`](Self::Sweep) and
@@ -68,6 +68,11 @@ impl BuildOptions {
         let sah_builder = SahBuilder::default();
         let (cost, prune, max_depth) = (CostModel::default(), false, None);
         Self { strategy, cost, sah_builder, leaf_size, prune, max_depth }
+    }
+
+    /// Good settings for a purpose.
+    pub fn preset(preset: Preset) -> Self {
+        preset.options()
     }
 
     /// The depth that no leaf of a tree over `count` primitives exceeds.

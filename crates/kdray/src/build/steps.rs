@@ -101,7 +101,7 @@ type WorkspaceOf<const K: usize, S> =
 const FUTILE_SPLITS: u32 = 3;
 
 /// Nodes with more references than this report progress, and are built on two threads.
-const LARGE: usize = 4096;
+const LARGE: usize = 1024;
 
 impl<P, S> Build<'_, P, S> {
     /// Builds the tree; with it come the bounds of its references, if they are wanted.

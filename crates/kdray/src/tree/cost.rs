@@ -99,7 +99,7 @@ impl CostModel {
         intersection: 2.0,
         leaf: 0.5,
         block: 8,
-        empty_bonus: 0.2,
+        empty_bonus: 0.3,
         termination: Termination::Automatic,
     };
 
@@ -170,6 +170,14 @@ mod tests {
     }
 
     #[test]
+    fn blocks_count_whole_in_leaves_and_by_half_in_splits() {
+        let cost = CostModel::BLOCKS_OF_8;
+        assert_eq!([0, 1, 8, 9, 16].map(|count| cost.leaf(count)), [0.0, 2.5, 2.5, 4.5, 4.5]);
+        let (below, above) = (0.5 * (3 + 8) as f64, 0.5 * (9 + 16) as f64);
+        assert_eq!(cost.split([0.5, 0.75], [3, 9]), 1.0 + 2.0 * (0.5 * below + 0.75 * above));
+    }
+
+    #[test]
     fn costs_out_of_range_are_named() {
         let good = CostModel::default();
         for bad in [-1.0, f64::NAN, f64::INFINITY] {
@@ -177,10 +185,16 @@ mod tests {
             assert_eq!(traversal.check(), Err(CostModelError::Traversal));
             let intersection = CostModel { intersection: bad, ..good };
             assert_eq!(intersection.check(), Err(CostModelError::Intersection));
+            let leaf = CostModel { leaf: bad, ..good };
+            assert_eq!(leaf.check(), Err(CostModelError::Leaf));
             let empty_bonus = CostModel { empty_bonus: bad, ..good };
             assert_eq!(empty_bonus.check(), Err(CostModelError::EmptyBonus));
         }
+        for bad in [0, 3, 12] {
+            assert_eq!(CostModel { block: bad, ..good }.check(), Err(CostModelError::Block));
+        }
         assert_eq!(good.check(), Ok(()));
         assert_eq!(CostModel::LECTURE.check(), Ok(()));
+        assert_eq!(CostModel::BLOCKS_OF_8.check(), Ok(()));
     }
 }

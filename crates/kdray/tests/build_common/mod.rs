@@ -2,12 +2,14 @@
 
 #![allow(dead_code, reason = "each test file uses some of them")]
 
+use kdray::build::SahBuilder;
 use kdray::primitives::{Balls, Segments};
-use kdray::{BuildOptions, Strategy, TriangleMesh};
+use kdray::{BuildOptions, Preset, Strategy, TriangleMesh};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
 /// For each strategy its good settings, and the hardest: a leaf size of one, which is good for SAH.
+/// The presets, and what they are made of at its hardest.
 pub(crate) fn all_options() -> Vec<BuildOptions> {
     Strategy::ALL
         .into_iter()
@@ -16,7 +18,15 @@ pub(crate) fn all_options() -> Vec<BuildOptions> {
             Strategy::Sah => vec![options],
             _ => vec![options, BuildOptions { leaf_size: 1, ..options }],
         })
+        .chain(Preset::ALL.map(BuildOptions::preset))
+        .chain([binned_deep(), BuildOptions { prune: true, ..binned_deep() }])
         .collect()
+}
+
+/// Bins down to leaves of one primitive.
+pub(crate) fn binned_deep() -> BuildOptions {
+    let sah_builder = SahBuilder::Binned { sweep_below: 0 };
+    BuildOptions { sah_builder, ..BuildOptions::for_strategy(Strategy::Sah) }
 }
 
 type Soup = Vec<[[f32; 3]; 3]>;

@@ -28,6 +28,9 @@ pub(in crate::build) struct Room(Vec<Event>);
 /// Bins on each axis.
 const BINS: usize = 32;
 
+/// Nodes with fewer references than this have half as many bins.
+const SMALL: usize = 256;
+
 /// Room for the bins and the faces of the cell: a power of two.
 const ROOM: usize = 64;
 
@@ -48,7 +51,11 @@ impl<const K: usize> ChoosePlane<K> for Binned {
         Room(events): &mut Room,
     ) -> Option<SplitPlane> {
         let count = node.references.len();
-        let scales = if count > self.sweep_below { Scale::of_cell(node.cell) } else { None };
+        let scales = if count > self.sweep_below {
+            Scale::of_cell(node.cell, bins_for(count))
+        } else {
+            None
+        };
         let best = match scales {
             Some(scales) => self.best_near_border(node, &scales, events),
             None => self.best_of_all(node, events),
@@ -102,13 +109,13 @@ impl Binned {
         bins: &Bins<K>,
     ) -> Option<(usize, Candidate)> {
         let (mut least, mut best) = (f64::INFINITY, None);
-        for axis in 0..K {
+        for (axis, scale) in scales.iter().enumerate() {
             let view = AxisView::new(node.cell, axis)?;
             let (mut below, mut above) = (0, node.references.len());
-            for border in 1..BINS {
+            for border in 1..bins_for(node.references.len()) {
                 below += bins.starts[axis][border - 1] as usize;
                 above -= bins.ends[axis][border] as usize;
-                let position = scales[axis].position(border);
+                let position = scale.position(border);
                 let cost = view.cost(&self.cost, position, [below, above]);
                 if cost < least && view.is_inside(position) {
                     let plane = SplitPlane { axis, position, planar: PlanarSide::Above };
@@ -118,6 +125,11 @@ impl Binned {
         }
         best
     }
+}
+
+/// How many bins a node of so many references has.
+fn bins_for(count: usize) -> usize {
+    if count < SMALL { BINS / 2 } else { BINS }
 }
 
 /// Makes `events` those strictly inside the cell, and returns how many primitives are below and
@@ -162,12 +174,12 @@ impl Scale {
     const SHIFT: f32 = 65536.0;
 
     /// Those of the axes; `None` if the cell is too small or too large for that.
-    fn of_cell<const K: usize>(cell: &Aabb<K>) -> Option<[Self; K]> {
+    fn of_cell<const K: usize>(cell: &Aabb<K>, bins: usize) -> Option<[Self; K]> {
         let scales = std::array::from_fn(|axis| {
             let min = cell.min[axis];
             let extent = cell.max[axis] - min;
-            let bins_per_length = if extent > 0.0 { BINS as f32 / extent } else { 0.0 };
-            Self { min, bins_per_length, width: f64::from(extent) / BINS as f64 }
+            let bins_per_length = if extent > 0.0 { bins as f32 / extent } else { 0.0 };
+            Self { min, bins_per_length, width: f64::from(extent) / bins as f64 }
         });
         let is_good = |s: &Self| s.width.is_finite() && s.bins_per_length.is_finite();
         scales.iter().all(is_good).then_some(scales)

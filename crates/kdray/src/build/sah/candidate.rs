@@ -42,14 +42,14 @@ pub(super) struct SideCounts {
 /// A node's cell as the candidates on one axis see it.
 ///
 /// A box's surface is linear in its extent on an axis: `face + rim · extent`, where `face` is the
-/// area of the sides perpendicular to the axis, and `rim` half the length around them; here both
-/// are relative to the surface of the cell.
+/// area of the sides perpendicular to the axis, and `rim` half the length around them.
 pub(super) struct AxisView {
     axis: usize,
     min: f32,
     max: f32,
     face: f64,
     rim: f64,
+    per_surface: f64,
 }
 
 impl AxisView {
@@ -62,8 +62,7 @@ impl AxisView {
             others().filter(|&other| other != skip).map(|other| extent[other]).product::<f64>()
         });
         let (min, max) = (cell.min[axis], cell.max[axis]);
-        let (face, rim): (f64, f64) = (face, rim.sum());
-        let view = Self { axis, min, max, face: face / surface, rim: rim / surface };
+        let view = Self { axis, min, max, face, rim: rim.sum(), per_surface: 1.0 / surface };
         (surface > 0.0).then_some(view)
     }
 
@@ -82,7 +81,9 @@ impl AxisView {
     /// The cost of a plane at `position` with so many primitives below and above.
     #[inline]
     pub(super) fn cost(&self, cost: &CostModel, position: f32, counts: [usize; 2]) -> f64 {
-        let chance = |min: f32, max: f32| self.face + self.rim * (f64::from(max) - f64::from(min));
+        let chance = |min: f32, max: f32| {
+            (self.face + self.rim * (f64::from(max) - f64::from(min))) * self.per_surface
+        };
         cost.split([chance(self.min, position), chance(position, self.max)], counts)
     }
 
