@@ -38,7 +38,7 @@ pub(crate) struct Compare {
     /// Only contenders whose names contain one of these, and the one that ratios are to
     #[arg(long, value_delimiter = ',', value_name = "TEXT")]
     pub(crate) contenders: Vec<String>,
-    /// Three scenes, 512 x 512 rays, three rounds
+    /// Three scenes, 512 x 512 rays, three rounds, smaller samples, builds on one thread only
     #[arg(long)]
     pub(crate) quick: bool,
     /// How often everything is measured; 5 if not given
@@ -47,9 +47,6 @@ pub(crate) struct Compare {
     /// Pixels across and down of the primary rays, a multiple of 16; 1024 if not given
     #[arg(long, value_name = "N", value_parser = resolution)]
     pub(crate) resolution: Option<u32>,
-    /// Leave out build times on two threads
-    #[arg(long)]
-    pub(crate) no_builds: bool,
     /// Write all figures to this file
     #[arg(long, value_name = "OUT.json")]
     pub(crate) json: Option<PathBuf>,

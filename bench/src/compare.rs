@@ -6,7 +6,7 @@ use crate::contenders;
 use crate::embree::Embree;
 use crate::error::BenchError;
 use crate::machine::{Machine, work_folder};
-use crate::measure::{self, Ready, spoken};
+use crate::measure::{self, Ready, Terms, spoken};
 use crate::rays::{RaySets, SetKind};
 use crate::reference::Reference;
 use crate::report::{BuildRow, Outputs, Report, say};
@@ -21,6 +21,10 @@ const RESOLUTION_QUICK: u32 = 512;
 /// How often everything is measured.
 pub(crate) const ROUNDS: u32 = 5;
 const ROUNDS_QUICK: u32 = 3;
+
+/// How many seconds a kernel may need for a set before it traces only a sample.
+pub(crate) const LONGEST_TRACE: f64 = 0.4;
+const LONGEST_TRACE_QUICK: f64 = 0.2;
 
 /// What is the same for all scenes.
 struct Run<'a> {
@@ -111,13 +115,21 @@ impl Run<'_> {
         let ready = self.build_all(scene, &mut report.builds)?;
         for (kind, truth) in &truths {
             let start = Instant::now();
-            let asked = (self.options.contenders.as_slice(), self.rounds);
-            report.rays.extend(measure::trace(&ready, scene, &rays, (*kind, truth), asked));
+            report.rays.extend(measure::trace(&ready, scene, &rays, (*kind, truth), self.terms()));
             let count = rays.set(*kind).rays.len();
             say(&format!("  {}: {count} rays, {}", kind.name(), spoken(start.elapsed())));
         }
         report.scenes.push((scene.name.clone(), triangles));
         Ok(())
+    }
+
+    fn terms(&self) -> Terms<'_> {
+        let quick = self.options.quick;
+        Terms {
+            names: &self.options.contenders,
+            rounds: self.rounds,
+            longest_trace: if quick { LONGEST_TRACE_QUICK } else { LONGEST_TRACE },
+        }
     }
 
     /// Builds all structures on one thread, to be kept, and on two, only to know the time.
@@ -134,7 +146,7 @@ impl Run<'_> {
             let (built, row) = measure::build(contender, scene, &one, self.rounds)?;
             ready.push(built);
             rows.push(row);
-            if contender.builds_on() == Threads::Chosen && !self.options.no_builds {
+            if contender.builds_on() == Threads::Chosen && !self.options.quick {
                 rows.push(measure::build(contender, scene, &two, self.rounds)?.1);
             }
             let row = rows.last().map_or(0.0, |row| row.bytes_per_triangle);

@@ -14,12 +14,10 @@ use crate::report::{BuildRow, RayRow};
 use crate::scene::BenchScene;
 use crate::workers::Workers;
 use cpu_time::ProcessTime;
+use std::ops::Range;
 use std::time::{Duration, Instant};
 
-/// Whoever needs longer for a set traces a sample of its rays that takes about as long.
-const LONGEST_TRACE: f64 = 0.5;
-
-/// But never fewer rays than one in this many.
+/// A sample has never fewer rays than one in this many.
 const SMALLEST_SAMPLE: usize = 32;
 
 /// Builds are repeated until they took this long in all.
@@ -88,6 +86,17 @@ pub(crate) fn build<'a>(
     }
 }
 
+/// What is asked of everyone.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Terms<'a> {
+    /// Only of kernels whose names contain one of these; of all for none.
+    pub(crate) names: &'a [String],
+    /// How often everything is measured.
+    pub(crate) rounds: u32,
+    /// Whoever needs more seconds for a set traces a sample of its rays that takes about as long.
+    pub(crate) longest_trace: f64,
+}
+
 /// A kernel with the rays of a set, or with a sample of them.
 struct Lane<'a> {
     name: String,
@@ -104,7 +113,7 @@ pub(crate) fn trace(
     scene: &BenchScene,
     rays: &RaySets,
     (kind, truth): (SetKind, &Truth),
-    (names, rounds): (&[String], u32),
+    terms: Terms<'_>,
 ) -> Vec<RayRow> {
     let (set, primary) = (rays.set(kind), rays.set(SetKind::Primary));
     if set.rays.is_empty() {
@@ -113,14 +122,17 @@ pub(crate) fn trace(
     let mut lanes = Vec::new();
     for Ready { contender, built } in ready {
         for kernel in contender.kernels() {
-            if wanted(*contender, kernel, names) {
+            if wanted(*contender, kernel, terms.names) {
                 let name = full_name(*contender, kernel);
                 let prepare = |set: &RaySet| built.prepare(kernel, &Job { set, primary });
-                lanes.extend(Lane::new(name, prepare, set, truth, scene.diagonal));
+                let lane = Lane::prepared_in_time(name, prepare, set, terms.longest_trace);
+                lanes.extend(
+                    lane.map(|(lane, runs)| lane.checked(set, &runs, truth, scene.diagonal)),
+                );
             }
         }
     }
-    for _ in 0..rounds {
+    for _ in 0..terms.rounds {
         lanes.iter_mut().for_each(Lane::run);
     }
     let baseline = lanes.iter().position(|lane| lane.name == BASELINE);
@@ -129,14 +141,13 @@ pub(crate) fn trace(
 }
 
 impl<'a> Lane<'a> {
-    /// Prepares rays, all if they can be traced in time, traces them once and checks the answers.
-    fn new(
+    /// Prepares all rays of a set, or else as many as can be traced in time, and tells which.
+    fn prepared_in_time(
         name: String,
         prepare: impl Fn(&RaySet) -> Option<Box<dyn Trace + 'a>>,
         set: &RaySet,
-        truth: &Truth,
-        diagonal: f64,
-    ) -> Option<Self> {
+        longest: f64,
+    ) -> Option<(Self, Vec<Range<usize>>)> {
         let all = set.rays.len();
         let pilot = set.sample(&set.sample_runs(all / 64));
         let mut lane = Self::prepared(name, prepare(&pilot)?, &pilot);
@@ -144,13 +155,24 @@ impl<'a> Lane<'a> {
         lane.run();
         lane.run();
         let seconds = lane.took[1].cpu * all as f64 / lane.rays as f64;
-        let share = (LONGEST_TRACE / seconds.max(LONGEST_TRACE)).max(1.0 / SMALLEST_SAMPLE as f64);
+        let share = (longest / seconds.max(longest)).max(1.0 / SMALLEST_SAMPLE as f64);
         let runs = set.sample_runs((all as f64 * share) as usize);
-        let (set, truth) = (set.sample(&runs), truth.sample(&runs));
-        let mut lane = Self::prepared(lane.name, prepare(&set)?, &set);
-        lane.trace.trace(&mut lane.answers);
-        lane.wrong = truth.check(&lane.answers, &set.rays, diagonal);
-        Some(lane)
+        let set = set.sample(&runs);
+        Some((Self::prepared(lane.name, prepare(&set)?, &set), runs))
+    }
+
+    /// Traces the rays once and checks the answers.
+    fn checked(
+        mut self,
+        set: &RaySet,
+        runs: &[Range<usize>],
+        truth: &Truth,
+        diagonal: f64,
+    ) -> Self {
+        self.trace.trace(&mut self.answers);
+        let rays = set.sample(runs).rays;
+        self.wrong = truth.sample(runs).check(&self.answers, &rays, diagonal);
+        self
     }
 
     fn prepared(name: String, trace: Box<dyn Trace + 'a>, set: &RaySet) -> Self {
@@ -229,7 +251,9 @@ mod tests {
         let hits = reference.hits(&set.rays).iter().flatten().count();
         let lane = |t| {
             let prepare = move |_: &RaySet| Some(Box::new(Always(t)) as Box<dyn Trace>);
-            Lane::new("liar".into(), prepare, set, &truth, scene.diagonal).unwrap()
+            let lane = Lane::prepared_in_time("liar".into(), prepare, set, 1.0);
+            let (lane, runs) = lane.unwrap();
+            lane.checked(set, &runs, &truth, scene.diagonal)
         };
         let wrong = lane(1e6).wrong;
         assert_eq!(wrong.phantom as usize, set.rays.len() - hits);

@@ -1,12 +1,12 @@
 //! How build time and rays a second change with the number of triangles.
 
 use crate::args::Scaling;
-use crate::compare::{ROUNDS, chosen, embree};
+use crate::compare::{LONGEST_TRACE, ROUNDS, chosen, embree};
 use crate::contender::Threads;
 use crate::embree::Embree;
 use crate::error::BenchError;
 use crate::machine::{Machine, work_folder};
-use crate::measure::{self, spoken};
+use crate::measure::{self, Terms, spoken};
 use crate::rays::{RaySets, SetKind};
 use crate::reference::Reference;
 use crate::report::{BuildRow, RayRow, columns, print, say, write_json};
@@ -101,8 +101,8 @@ fn terrain(
         }
     }
     for (kind, truth) in &truths {
-        let asked = (names, rounds);
-        figures.rays.extend(measure::trace(&ready, scene, &rays, (*kind, truth), asked));
+        let terms = Terms { names, rounds, longest_trace: LONGEST_TRACE };
+        figures.rays.extend(measure::trace(&ready, scene, &rays, (*kind, truth), terms));
     }
     say(&format!("{}: {}", scene.name, spoken(start.elapsed())));
     Ok(())

@@ -6,7 +6,6 @@ use crate::rays;
 use crate::workers::Workers;
 use kdray::TriangleMesh;
 use parry3d::math::Vector;
-use parry3d::partitioning::TraversalAction;
 use parry3d::query::{Ray, RayCast};
 use parry3d::shape::{CompositeShapeRef, TriMesh};
 
@@ -49,21 +48,14 @@ impl Tree {
         hit.map_or(Found::MISS, |(id, t)| Found { t, id })
     }
 
-    /// The crate has no such query, but a traversal that can be left early.
+    /// The crate has no such query. A first hit that is said to be at zero ends its search for the
+    /// closest one.
     fn any(&self, (ray, t_max): &(Ray, f32)) -> bool {
-        let mut any = false;
-        self.mesh.bvh().traverse(|node| {
-            if node.cast_ray(ray, *t_max) > *t_max {
-                return TraversalAction::Prune;
-            }
-            let Some(id) = node.leaf_data() else { return TraversalAction::Continue };
-            if self.mesh.triangle(id).cast_local_ray(ray, *t_max, false).is_some() {
-                any = true;
-                return TraversalAction::EarlyExit;
-            }
-            TraversalAction::Continue
-        });
-        any
+        let hit = |id, t_max| {
+            let hit = self.mesh.triangle(id).cast_local_ray(ray, t_max, false);
+            hit.map(|_| 0.0)
+        };
+        self.mesh.bvh().cast_ray(ray, *t_max, hit).is_some()
     }
 }
 

@@ -10,12 +10,13 @@ pub(super) fn text(report: &Report) -> String {
         report.scenes.iter().map(|(name, count)| format!("{name} {count}")).collect();
     let (side, rounds) = (report.resolution, report.rounds);
     text += &format!("Triangles: {}.\n", scenes.join(", "));
-    text += &format!(
-        "{side} x {side} primary rays, medians of {rounds} rounds in turn, one thread, processor \
-         time.\n"
-    );
+    text +=
+        &format!("{side} x {side} primary rays, medians of {rounds} rounds in turn, one thread.\n");
     for set in report.sets() {
-        text += &format!("\n{set}: ratio to Embree MEDIUM, single rays (million rays a second)\n");
+        text += &format!(
+            "\n{set}: ratio to Embree MEDIUM, single rays; million rays a second by processor time; \
+             by wall time\n"
+        );
         text += &columns(&rates(report, set));
     }
     text += "\nGeometric means of the ratios\n";
@@ -76,11 +77,11 @@ fn rates(report: &Report, set: &str) -> Vec<Vec<String>> {
     rows(head, there.map(|contender| row(contender)))
 }
 
-/// Ratio and rate; an asterisk if only a sample was traced, a dash if nothing was.
+/// Ratio and both rates; a dash if nothing was traced.
 fn rate(row: Option<&RayRow>) -> String {
     row.map_or("–".to_owned(), |row| {
-        let rate = format!("({:.2})", row.mrays);
-        format!("{} {rate:>7}", ratio(row.ratio))
+        let rates = format!("{:5.2} {:5.2}", row.mrays, row.mrays_wall);
+        format!("{} {rates}", ratio(row.ratio))
     })
 }
 
@@ -170,7 +171,8 @@ mod tests {
     #[test]
     fn tables_hold_ratios_rates_and_wrong_answers() {
         let text = text(&report());
-        for part in ["0.50  (1.50)", "2.00  (6.00)", "14 / 0 / 0 of 8192", "1.40 | – | 60"] {
+        for part in ["0.50  1.50  1.00", "2.00  6.00  4.00", "14 / 0 / 0 of 8192", "1.40 | – | 60"]
+        {
             assert!(text.contains(part), "{part} in:\n{text}");
         }
     }
@@ -180,6 +182,6 @@ mod tests {
         let mut report = report();
         report.rays.iter_mut().for_each(|row| row.ratio = None);
         let text = text(&report);
-        assert!(text.contains("–  (1.50)"), "{text}");
+        assert!(text.contains("–  1.50  1.00"), "{text}");
     }
 }
