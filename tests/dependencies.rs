@@ -7,13 +7,13 @@ use std::path::{Path, PathBuf};
 
 /// The modules of `kdray` in the order of the pipeline; each may use those before it. `build`
 /// makes trees, so it comes behind `tree`, though a build comes before its tree in time.
-const MODULES: [&str; 9] = [
-    "geometry", "exact", "primitives", "tree", "build", "simd", "layout", "traverse", "query",
-];
+const MODULES: [&str; 9] =
+    ["geometry", "exact", "primitives", "tree", "build", "simd", "layout", "traverse", "query"];
 
 /// What the library `kdray` may need: containers, casts, vectors, threads, error messages. Nothing
 /// that reads, writes or prints.
-const LIBRARY_MAY_USE: [&str; 6] = ["arrayvec", "bytemuck", "fearless_simd", "glam", "rayon", "thiserror"];
+const LIBRARY_MAY_USE: [&str; 6] =
+    ["arrayvec", "bytemuck", "fearless_simd", "glam", "rayon", "thiserror"];
 
 fn metadata() -> Metadata {
     let manifest = Path::new(env!("CARGO_MANIFEST_DIR")).join("../Cargo.toml");

@@ -18,7 +18,7 @@ use std::f64::consts::TAU;
 const STEP: usize = 1999;
 
 fn scene(mesh: TriangleMesh, strategy: Strategy) -> Scene {
-    let options = BuildOptions { strategy, leaf_size: 1, ..BuildOptions::default() };
+    let options = BuildOptions { leaf_size: 1, ..BuildOptions::for_strategy(strategy) };
     Scene::build(mesh, &options).expect("the mesh is valid")
 }
 

@@ -7,7 +7,7 @@ use crate::contender::{Answers, Found};
 use crate::error::BenchError;
 use crate::rays::{Question, Ray, RaySet};
 use glam::Vec3;
-use kdray::{BuildOptions, Hit, ShapeScene, TriangleMesh};
+use kdray::{BuildOptions, Hit, ShapeScene, Strategy, TriangleMesh};
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -48,7 +48,9 @@ pub(crate) fn exact_ray(ray: &Ray) -> kdray::Ray {
 impl Reference {
     /// Builds a tree over the triangles.
     pub(crate) fn build(mesh: &TriangleMesh) -> Result<Self, BenchError> {
-        Ok(Self { scene: ShapeScene::build(mesh.clone(), &BuildOptions::default())? })
+        Ok(Self {
+            scene: ShapeScene::build(mesh.clone(), &BuildOptions::for_strategy(Strategy::Sah))?,
+        })
     }
 
     /// The closest hits, found on all processors.

@@ -3,7 +3,9 @@
 use crate::cases::{Aimed, Case};
 use kdray::geometry::BoundingSphere;
 use kdray::traverse::Naive;
-use kdray::{BuildOptions, Hit, InstructionSet, KdTree, Scene, ShapeScene, TriangleMesh};
+use kdray::{
+    BuildOptions, CostModel, Hit, InstructionSet, KdTree, Scene, ShapeScene, TriangleMesh,
+};
 use kdray_tests::Subject;
 use kdray_tests::oracle::{agrees_on_all, agrees_on_closest};
 use kdray_tests::rays::Archer;
@@ -30,16 +32,21 @@ pub(crate) fn on_each_mesh(
     options: &BuildOptions,
     cases: &[Case<TriangleMesh, 3>],
     instructions: &str,
-    check: impl Fn(&Scene, &Aimed<3>) -> Result<(), String> + Sync,
+    check: impl Fn(&Scene, &[&Aimed<3>]) -> Result<(), String> + Sync,
 ) {
     let instructions = match InstructionSet::of_name(instructions) {
         Ok(instructions) => instructions,
         Err(unknown) => return eprintln!("not run: {unknown}"),
     };
+    let options = BuildOptions { cost: CostModel { block: 8, ..options.cost }, ..*options };
     for case in cases {
-        let scene = Scene::build(case.subject.clone(), options).expect("cases are valid");
-        let scene = scene.with_instructions(instructions);
-        on_rays(case, scene.tree(), |aimed| check(&scene, aimed));
+        let scene = Scene::build(case.subject.clone(), &options).expect("cases are valid");
+        let scene = scene.with_instructions(instructions).with_batches_above(0);
+        let in_planes = in_split_planes(case, scene.tree());
+        let aimed: Vec<_> = case.aimed.iter().chain(&in_planes).collect();
+        if let Err(error) = check(&scene, &aimed) {
+            panic!("case {:?}, {error}", case.name);
+        }
     }
 }
 
@@ -49,12 +56,7 @@ fn on_rays<S: Subject<K> + Send + Sync, const K: usize>(
     tree: &KdTree<K>,
     check: impl Fn(&Aimed<K>) -> Result<(), String> + Sync,
 ) {
-    let mut archer = Archer::new(&case.subject, case.seed);
-    let in_planes: Vec<_> = archer
-        .in_split_planes(tree, IN_SPLIT_PLANES)
-        .into_iter()
-        .map(|ray| Aimed::new(&case.subject, ray))
-        .collect();
+    let in_planes = in_split_planes(case, tree);
     let aimed: Vec<_> = case.aimed.iter().chain(&in_planes).collect();
     let wrong = |(index, aimed): (usize, &&Aimed<K>)| {
         let error = check(aimed).err()?;
@@ -64,6 +66,15 @@ fn on_rays<S: Subject<K> + Send + Sync, const K: usize>(
     if let Some(first) = wrong.first() {
         panic!("{} of {} rays: {first}", wrong.len(), aimed.len());
     }
+}
+
+/// Rays in the split planes of a case's tree.
+fn in_split_planes<S: Subject<K>, const K: usize>(
+    case: &Case<S, K>,
+    tree: &KdTree<K>,
+) -> Vec<Aimed<K>> {
+    let rays = Archer::new(&case.subject, case.seed).in_split_planes(tree, IN_SPLIT_PLANES);
+    rays.into_iter().map(|ray| Aimed::new(&case.subject, ray)).collect()
 }
 
 /// Builds a tree over each case and validates it.
@@ -138,14 +149,31 @@ pub(crate) fn count<S: Subject<K>, const K: usize>(
     same(&scene.count(&aimed.ray), &aimed.crossed.naive.len())
 }
 
-/// The kernels' closest hit, the same as without a tree to the last bit.
-pub(crate) fn kernel_closest_hit(scene: &Scene, aimed: &Aimed<3>) -> Result<(), String> {
-    same(&scene.closest_hit(&aimed.ray), &aimed.touched.naive.first().copied())
+/// The kernels' closest hits, the same as without a tree to the last bit: of one ray after the
+/// other, and of all in a batch.
+pub(crate) fn kernel_closest_hit(scene: &Scene, aimed: &[&Aimed<3>]) -> Result<(), String> {
+    let rays: Vec<_> = aimed.iter().map(|aimed| aimed.ray).collect();
+    let mut batch = vec![None; rays.len()];
+    scene.closest_hits(&rays, &mut batch);
+    for ((aimed, ray), in_batch) in aimed.iter().zip(&rays).zip(batch) {
+        let naive = aimed.touched.naive.first().copied();
+        same(&scene.closest_hit(ray), &naive).map_err(|error| format!("{ray:?}: {error}"))?;
+        same(&in_batch, &naive).map_err(|error| format!("{ray:?} in a batch: {error}"))?;
+    }
+    Ok(())
 }
 
-/// Whether the kernels find anything.
-pub(crate) fn kernel_any_hit(scene: &Scene, aimed: &Aimed<3>) -> Result<(), String> {
-    same(&scene.any_hit(&aimed.ray), &!aimed.touched.naive.is_empty())
+/// Whether the kernels find anything, one ray after the other and all in a batch.
+pub(crate) fn kernel_any_hit(scene: &Scene, aimed: &[&Aimed<3>]) -> Result<(), String> {
+    let rays: Vec<_> = aimed.iter().map(|aimed| aimed.ray).collect();
+    let mut batch = vec![false; rays.len()];
+    scene.any_hits(&rays, &mut batch);
+    for ((aimed, ray), in_batch) in aimed.iter().zip(&rays).zip(batch) {
+        let naive = !aimed.touched.naive.is_empty();
+        same(&scene.any_hit(ray), &naive).map_err(|error| format!("{ray:?}: {error}"))?;
+        same(&in_batch, &naive).map_err(|error| format!("{ray:?} in a batch: {error}"))?;
+    }
+    Ok(())
 }
 
 /// The naive answer, with a sphere for the bounding volume that is tested first.

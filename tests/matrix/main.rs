@@ -78,7 +78,7 @@ macro_rules! builder {
 /// Leaves of one primitive where the strategy can: the deepest trees, with the most cells to lose
 /// a hit between.
 fn deep(strategy: Strategy) -> BuildOptions {
-    BuildOptions { strategy, leaf_size: 1, ..BuildOptions::default() }
+    BuildOptions { leaf_size: 1, ..BuildOptions::for_strategy(strategy) }
 }
 
 builder!(middle, deep(Strategy::Middle));
@@ -93,4 +93,4 @@ builder!(
 builder!(fast, BuildOptions::preset(Preset::Fast));
 builder!(balanced, BuildOptions::preset(Preset::Balanced));
 builder!(best, BuildOptions::preset(Preset::Best));
-builder!(one_leaf, BuildOptions { leaf_size: usize::MAX, ..BuildOptions::default() });
+builder!(one_leaf, BuildOptions { leaf_size: usize::MAX, ..deep(Strategy::Sah) });

@@ -1,26 +1,38 @@
 //! kdray itself.
 
-use crate::contender::{Built, Contender, Found, Job, Trace, one_by_one};
+use crate::contender::{Answers, Built, Contender, Found, Job, Trace, one_by_one};
 use crate::error::BenchError;
 use crate::reference::exact_ray;
 use crate::workers::Workers;
-use kdray::{Arithmetic, BuildOptions, Hit, Scene, TriangleMesh};
+use kdray::build::Preset;
+use kdray::{Arithmetic, BuildOptions, Hit, Ray, Scene, ShapeScene, Strategy, TriangleMesh};
 
 /// All of kdray's structures.
 pub(super) fn all() -> Vec<Box<dyn Contender>> {
-    vec![Box::new(Kdray)]
+    vec![
+        Box::new(Kdray { name: "kdray", preset: Preset::Balanced }),
+        Box::new(Kdray { name: "kdray fast", preset: Preset::Fast }),
+        Box::new(Kdray { name: "kdray best", preset: Preset::Best }),
+        Box::new(Lecture),
+    ]
 }
 
-/// What a scene builds by default: the canonical tree and the wide one.
-struct Kdray;
+/// A scene by a preset: the canonical tree and the wide one.
+struct Kdray {
+    name: &'static str,
+    preset: Preset,
+}
 
 impl Contender for Kdray {
     fn name(&self) -> &'static str {
-        "kdray"
+        self.name
     }
 
     fn kernels(&self) -> &'static [&'static str] {
-        &["single", "single float", "scalar"]
+        match self.preset {
+            Preset::Balanced => &["single", "batch", "single float", "batch float"],
+            _ => &["single", "batch"],
+        }
     }
 
     fn build<'a>(
@@ -29,53 +41,81 @@ impl Contender for Kdray {
         workers: &Workers,
     ) -> Result<Box<dyn Built + 'a>, BenchError> {
         let mesh = mesh.clone();
-        let exact = workers.run(|| Scene::build(mesh, &options()))?;
-        Ok(Box::new(BuiltKdray { exact }))
+        let scene = workers.run(|| Scene::build(mesh, &BuildOptions::preset(self.preset)))?;
+        Ok(Box::new(BuiltKdray { scene }))
     }
 }
 
-fn options() -> BuildOptions {
-    let mut options = BuildOptions::default();
-    options.cost = kdray::CostModel::BLOCKS_OF_8;
-    options.prune = true;
-    options.sah_builder = kdray::build::SahBuilder::Binned { sweep_below: 64 };
-    options
-}
-
 struct BuiltKdray {
-    exact: Scene,
+    scene: Scene,
 }
 
 impl Built for BuiltKdray {
     fn prepare<'a>(&'a self, kernel: &str, job: &Job<'_>) -> Option<Box<dyn Trace + 'a>> {
-        match kernel {
-            "single" => single(&self.exact, job),
-            "single float" => {
-                let float = self.exact.clone().with_arithmetic(Arithmetic::Float);
-                let float = std::rc::Rc::new(float);
-                let other = std::rc::Rc::clone(&float);
-                one_by_one(
-                    job,
-                    exact_ray,
-                    move |ray| found(float.closest_hit(ray)),
-                    move |ray| other.any_hit(ray),
-                )
+        let scene = self.scene.clone();
+        let (kernel, scene) = match kernel.strip_suffix(" float") {
+            Some(kernel) => (kernel, scene.with_arithmetic(Arithmetic::Float)),
+            None => (kernel, scene),
+        };
+        if kernel == "batch" {
+            let rays = job.set.rays.iter().map(exact_ray).collect();
+            return Some(Box::new(InBatches { scene, rays }));
+        }
+        let for_any = scene.clone();
+        let closest = move |ray: &Ray| found(scene.closest_hit(ray));
+        one_by_one(job, exact_ray, closest, move |ray| for_any.any_hit(ray))
+    }
+}
+
+/// Rays that are traced many at a time.
+struct InBatches {
+    scene: Scene,
+    rays: Vec<Ray>,
+}
+
+impl Trace for InBatches {
+    fn trace(&mut self, answers: &mut Answers) {
+        let rays = self.rays.iter().copied();
+        match answers {
+            Answers::Closest(answers) => {
+                self.scene.each_closest_hit(rays, |index, hit| answers[index] = found(hit));
             }
-            _ => {
-                let shapes = self.exact.shapes();
-                one_by_one(
-                    job,
-                    exact_ray,
-                    |ray| found(shapes.closest_hit(ray)),
-                    |ray| shapes.any_hit(ray),
-                )
-            }
+            Answers::Any(answers) => self.scene.any_hits(&self.rays, answers),
         }
     }
 }
 
-fn single<'a>(scene: &'a Scene, job: &Job<'_>) -> Option<Box<dyn Trace + 'a>> {
-    one_by_one(job, exact_ray, |ray| found(scene.closest_hit(ray)), |ray| scene.any_hit(ray))
+/// The tree of the lecture, by the surface area heuristic, and the scalar traversal, exact.
+struct Lecture;
+
+impl Contender for Lecture {
+    fn name(&self) -> &'static str {
+        "kdray lecture"
+    }
+
+    fn build<'a>(
+        &self,
+        mesh: &'a TriangleMesh,
+        workers: &Workers,
+    ) -> Result<Box<dyn Built + 'a>, BenchError> {
+        let (mesh, options) = (mesh.clone(), BuildOptions::for_strategy(Strategy::Sah));
+        Ok(Box::new(BuiltLecture { scene: workers.run(|| ShapeScene::build(mesh, &options))? }))
+    }
+}
+
+struct BuiltLecture {
+    scene: ShapeScene,
+}
+
+impl Built for BuiltLecture {
+    fn prepare<'a>(&'a self, _kernel: &str, job: &Job<'_>) -> Option<Box<dyn Trace + 'a>> {
+        one_by_one(
+            job,
+            exact_ray,
+            |ray| found(self.scene.closest_hit(ray)),
+            |ray| self.scene.any_hit(ray),
+        )
+    }
 }
 
 fn found(hit: Option<Hit>) -> Found {

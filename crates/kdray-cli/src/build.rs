@@ -1,7 +1,7 @@
 //! Building a tree with progress and Ctrl-C.
 
-use crate::{args::BuildArgs, cli::Globals, error::CliError, interrupt, progress::Progress};
-use kdray::{BuildProgress, Scene, ShapeScene, TriangleMesh};
+use crate::{cli::Globals, error::CliError, interrupt, progress::Progress};
+use kdray::{BuildOptions, BuildProgress, Scene, ShapeScene, TriangleMesh};
 use kdray_render::World;
 use kdray_scene::Model;
 use std::ops::ControlFlow;
@@ -9,13 +9,13 @@ use std::ops::ControlFlow;
 /// Builds the canonical tree over `mesh`, and says how long it took.
 pub(crate) fn shapes(
     mesh: TriangleMesh,
-    args: &BuildArgs,
+    options: &BuildOptions,
     globals: &Globals,
 ) -> Result<ShapeScene, CliError> {
     let progress = start(mesh.triangles().len(), globals);
     let _watch = interrupt::watch();
     let step = |done| step(&progress, done);
-    let shapes = ShapeScene::build_with_progress(mesh, &args.options(), &step)?;
+    let shapes = ShapeScene::build_with_progress(mesh, options, &step)?;
     finish(progress, &shapes);
     Ok(shapes)
 }
@@ -23,21 +23,25 @@ pub(crate) fn shapes(
 /// Builds the trees over `mesh`, and says how long it took.
 pub(crate) fn scene(
     mesh: TriangleMesh,
-    args: &BuildArgs,
+    options: &BuildOptions,
     globals: &Globals,
 ) -> Result<Scene, CliError> {
     let progress = start(mesh.triangles().len(), globals);
     let _watch = interrupt::watch();
-    let scene = Scene::build_with_progress(mesh, &args.options(), &|done| step(&progress, done))?;
+    let scene = Scene::build_with_progress(mesh, options, &|done| step(&progress, done))?;
     finish(progress, scene.shapes());
     Ok(scene)
 }
 
 /// Builds a tree over the triangles of `model`, and says how long it took.
-pub(crate) fn world(model: Model, args: &BuildArgs, globals: &Globals) -> Result<World, CliError> {
+pub(crate) fn world(
+    model: Model,
+    options: &BuildOptions,
+    globals: &Globals,
+) -> Result<World, CliError> {
     let progress = start(model.triangles.len(), globals);
     let _watch = interrupt::watch();
-    let world = World::new_with_progress(model, &args.options(), &|done| step(&progress, done))?;
+    let world = World::new_with_progress(model, options, &|done| step(&progress, done))?;
     finish(progress, world.scene().shapes());
     Ok(world)
 }

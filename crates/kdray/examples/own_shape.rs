@@ -4,7 +4,7 @@
 //! `cargo run --release -p kdray --example own_shape`
 
 use kdray::primitives::{HitRule, Intersect, Primitives};
-use kdray::{Aabb, BuildOptions, Hit, Ray, ShapeScene, Side};
+use kdray::{Aabb, BuildOptions, Hit, Ray, ShapeScene, Side, Strategy};
 use std::io::{self, Write};
 
 /// A column: its axis is parallel to y, and its shaft, without top and bottom, is what rays meet.
@@ -66,9 +66,11 @@ fn hall() -> Columns {
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let scene = ShapeScene::build(hall(), &BuildOptions::default())?;
+    let scene = ShapeScene::build(hall(), &BuildOptions::for_strategy(Strategy::Sah))?;
     let mut out = io::stdout().lock();
-    let stats = scene.tree().stats(scene.primitives().count(), &BuildOptions::default().cost);
+    let stats = scene
+        .tree()
+        .stats(scene.primitives().count(), &BuildOptions::for_strategy(Strategy::Sah).cost);
     writeln!(out, "16 columns, {} nodes, {} levels deep", stats.nodes, stats.max_depth)?;
 
     let eye = [0.0, 2.5, -4.0];

@@ -4,7 +4,7 @@
 //! `cargo run --release -p kdray --example plan_2d`
 
 use kdray::primitives::Segments;
-use kdray::{BuildOptions, Ray, ShapeScene};
+use kdray::{BuildOptions, Ray, ShapeScene, Strategy};
 use std::io::{self, Write};
 
 /// The rooms of a flat, 16 m by 8 m, with doors left open.
@@ -28,7 +28,10 @@ const WALLS: [[[f32; 2]; 2]; 12] = [
 ];
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let scene = ShapeScene::build(Segments::new(WALLS.to_vec())?, &BuildOptions::default())?;
+    let scene = ShapeScene::build(
+        Segments::new(WALLS.to_vec())?,
+        &BuildOptions::for_strategy(Strategy::Sah),
+    )?;
     let mut out = io::stdout().lock();
     let observer = [7.0, 2.25];
     writeln!(out, "What is seen (.) from E, and what is not (blank):")?;

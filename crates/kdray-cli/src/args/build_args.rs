@@ -1,9 +1,22 @@
 //! How the tree is built.
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use kdray::{BuildOptions, Strategy, tree::MAX_DEPTH};
+use kdray::{BuildOptions, Strategy, build::Preset, tree::MAX_DEPTH};
 
-/// How the tree is built.
+/// How the tree is built that answers: for the fast kernels, or by a strategy of the lecture.
+#[derive(Clone, Debug, clap::Args)]
+pub(crate) struct FastBuildArgs {
+    /// How long the build may take for how fast a tree; balanced if --split is not given either
+    #[arg(long, value_name = "PRESET", value_parser = presets(), conflicts_with = "split")]
+    pub(crate) preset: Option<Preset>,
+    /// Take the lecture's tree by this way to choose the splitting plane, and its traversal
+    #[arg(long, value_name = "STRATEGY", value_parser = strategies())]
+    pub(crate) split: Option<Strategy>,
+    #[command(flatten)]
+    pub(crate) limits: LimitArgs,
+}
+
+/// How the tree is built that is looked at.
 #[derive(Clone, Debug, clap::Args)]
 pub(crate) struct BuildArgs {
     /// How the splitting plane is chosen
@@ -16,12 +29,26 @@ pub(crate) struct BuildArgs {
 /// Where the build stops; all that remains of [`BuildArgs`] when every strategy is built.
 #[derive(Clone, Debug, clap::Args)]
 pub(crate) struct LimitArgs {
-    /// Do not cut nodes of this many triangles or fewer; without it 1 for sah, 8 for the others
+    /// Do not cut nodes of this many triangles or fewer; without it 1 for sah, 8 for the other
+    /// strategies, 16 or fewer for presets
     #[arg(long, value_name = "N")]
     pub(crate) leaf_size: Option<usize>,
     /// Do not cut deeper than this; without it 8 + 1.3 log2 of the number of triangles
     #[arg(long, value_name = "N", value_parser = depth)]
     pub(crate) max_depth: Option<usize>,
+}
+
+impl FastBuildArgs {
+    /// What the library is asked for.
+    pub(crate) fn options(&self) -> BuildOptions {
+        let preset = BuildOptions::preset(self.preset.unwrap_or_default());
+        self.limits.apply(self.split.map_or(preset, BuildOptions::for_strategy))
+    }
+
+    /// The same with a tree of the lecture, by default that of the surface area heuristic.
+    pub(crate) fn lecture_options(&self) -> BuildOptions {
+        self.limits.options(self.split.unwrap_or_default())
+    }
 }
 
 impl BuildArgs {
@@ -34,10 +61,24 @@ impl BuildArgs {
 impl LimitArgs {
     /// What the library is asked for with the given strategy.
     pub(crate) fn options(&self, strategy: Strategy) -> BuildOptions {
-        let default = BuildOptions::for_strategy(strategy);
-        let leaf_size = self.leaf_size.unwrap_or(default.leaf_size);
-        BuildOptions { leaf_size, max_depth: self.max_depth, ..default }
+        self.apply(BuildOptions::for_strategy(strategy))
     }
+
+    fn apply(&self, options: BuildOptions) -> BuildOptions {
+        let leaf_size = self.leaf_size.unwrap_or(options.leaf_size);
+        BuildOptions { leaf_size, max_depth: self.max_depth, ..options }
+    }
+}
+
+/// The presets by the library's names, and what the help says of each.
+fn presets() -> impl TypedValueParser<Value = Preset> {
+    let help = |preset| match preset {
+        Preset::Fast => "The shortest build",
+        Preset::Balanced => "A build a little longer, of a tree that is nearly the best",
+        Preset::Best => "The fastest tree; the build takes three times as long",
+    };
+    let value = |preset: Preset| PossibleValue::new(preset.name()).help(help(preset));
+    PossibleValuesParser::new(Preset::ALL.map(value)).try_map(|name| name.parse())
 }
 
 /// The strategies by the library's names, and what the help says of each.

@@ -5,7 +5,7 @@ mod scene_args;
 mod values;
 mod view_args;
 
-pub(crate) use build_args::{BuildArgs, LimitArgs};
+pub(crate) use build_args::{BuildArgs, FastBuildArgs, LimitArgs};
 pub(crate) use scene_args::{SceneArgs, SceneFormat};
 pub(crate) use values::{Size, color, numbers};
 pub(crate) use view_args::ViewArgs;

@@ -85,7 +85,7 @@ pub(crate) fn run(args: &Args, globals: &Globals) -> Result<(), CliError> {
     if model.triangles.is_empty() {
         return Err(nothing_to_draw(args));
     }
-    let world = build::world(model, &args.build, globals)?;
+    let world = build::world(model, &args.build.options(), globals)?;
     match args.slice {
         Some(plane) => write_slice(args, globals, file, &world, plane),
         None => write_wireframe(args, globals, file, &world),

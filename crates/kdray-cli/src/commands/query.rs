@@ -1,7 +1,7 @@
 //! `kdray query`: answers for a file of rays.
 
 use crate::{
-    args::{BuildArgs, SceneArgs},
+    args::{FastBuildArgs, SceneArgs},
     build,
     cli::Globals,
     error::CliError,
@@ -51,7 +51,7 @@ pub(crate) struct Args {
     #[arg(long)]
     naive: bool,
     #[command(flatten)]
-    build: BuildArgs,
+    build: FastBuildArgs,
 }
 
 /// Reads, answers and writes, a chunk at a time.
@@ -93,13 +93,13 @@ fn answerer(args: &Args, globals: &Globals) -> Result<Answerer, CliError> {
     if args.naive {
         return Ok(Answerer::naive(mesh));
     }
-    build::scene(mesh, &args.build, globals).map(Answerer::Tree)
+    build::scene(mesh, &args.build.options(), globals).map(Answerer::Tree)
 }
 
 /// The answers in the order of the rays, in runs.
 fn answer(answerer: &Answerer, mode: Mode, rays: &[Ray], progress: &Progress) -> Vec<Vec<Answer>> {
     let runs = rays.par_chunks(RUN).map(|run| {
-        let answers = run.iter().map(|ray| answerer.answer(mode, ray)).collect();
+        let answers = answerer.answers(mode, run);
         progress.advance(run.len() as u64);
         answers
     });

@@ -1,7 +1,7 @@
 //! `kdray render`: a picture by backward ray tracing.
 
 use crate::{
-    args::{BuildArgs, SceneArgs, ViewArgs, color},
+    args::{FastBuildArgs, SceneArgs, ViewArgs, color},
     build,
     cli::Globals,
     error::CliError,
@@ -10,6 +10,7 @@ use crate::{
     progress::{self, Progress},
 };
 use clap::ValueEnum;
+use kdray::BuildOptions;
 use kdray_render::{
     Background, Picture, PictureKind, PngDepth, RenderOptions, RenderProgress, World,
 };
@@ -43,7 +44,7 @@ pub(crate) struct Args {
     #[command(flatten)]
     quality: QualityArgs,
     #[command(flatten)]
-    build: BuildArgs,
+    build: FastBuildArgs,
 }
 
 /// What is computed, and how well. What is not given is the renderer's default.
@@ -119,6 +120,17 @@ enum Format {
     Exr,
 }
 
+/// Pictures of cost are of the lecture's traversal, and of its tree unless another is asked for.
+fn tree_options(args: &Args) -> BuildOptions {
+    let of_cost =
+        matches!(args.quality.picture, Shown::Cost | Shown::CostNodes | Shown::CostPrimitives);
+    if of_cost && args.build.preset.is_none() {
+        args.build.lecture_options()
+    } else {
+        args.build.options()
+    }
+}
+
 /// Reads, builds, renders and writes.
 pub(crate) fn run(args: &Args, globals: &Globals) -> Result<(), CliError> {
     let format = Format::of(&args.out)?;
@@ -126,7 +138,7 @@ pub(crate) fn run(args: &Args, globals: &Globals) -> Result<(), CliError> {
     // Refused now, not after an hour of rendering.
     let mut output = Output::create(&args.out)?;
     let model = load::model(&args.scene, globals)?;
-    let world = build::world(model, &args.build, globals)?;
+    let world = build::world(model, &tree_options(args), globals)?;
     let (picture, report) = render(args, &world, globals)?;
     let written = match format {
         Format::Png => picture.write_png(output.file(), args.quality.bits.unwrap_or_default()),

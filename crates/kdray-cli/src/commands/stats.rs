@@ -53,7 +53,7 @@ struct Figures {
 /// Builds the tree and measures it.
 pub(crate) fn run(args: &Args, globals: &Globals) -> Result<(), CliError> {
     let mesh = load::mesh(&args.scene, globals)?;
-    let scene = build::shapes(mesh, &args.build, globals)?;
+    let scene = build::shapes(mesh, &args.build.options(), globals)?;
     let figures = Figures::of(&scene, &args.build);
     if args.table.json {
         return print_json(&figures);

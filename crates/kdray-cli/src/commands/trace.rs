@@ -60,7 +60,7 @@ struct WhichRay {
 pub(crate) fn run(args: &Args, globals: &Globals) -> Result<(), CliError> {
     let file = args.out.as_deref().map(PictureFile::create).transpose()?;
     let model = load::model(&args.scene, globals)?;
-    let world = build::world(model, &args.build, globals)?;
+    let world = build::world(model, &args.build.options(), globals)?;
     let ray = ray(args, &world)?;
     let scene = world.scene().shapes();
     let mut recorder = StepRecorder::default();

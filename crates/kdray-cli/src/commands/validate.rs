@@ -41,7 +41,7 @@ struct Finding {
 /// Builds and checks.
 pub(crate) fn run(args: &Args, globals: &Globals) -> Result<(), CliError> {
     let mesh = load::mesh(&args.scene, globals)?;
-    let scene = build::shapes(mesh, &args.build, globals)?;
+    let scene = build::shapes(mesh, &args.build.options(), globals)?;
     let checked = scene.tree().validate(scene.primitives());
     let (triangles, nodes) = (scene.primitives().triangles().len(), scene.tree().nodes().len());
     if args.table.json {

@@ -251,7 +251,7 @@ mod tests {
         });
         let mesh = TriangleMesh::from_soup(soup).unwrap();
         for strategy in Strategy::ALL {
-            let options = BuildOptions { strategy, ..BuildOptions::default() };
+            let options = BuildOptions::for_strategy(strategy);
             let tree = KdTree::build(&mesh, &options).unwrap();
             let skew = Section::through(&Ray::new([0.0, 0.0, 0.0], [0.7, 1.0, -0.9]));
             for section in [Section::perpendicular(1, 5.0), skew] {

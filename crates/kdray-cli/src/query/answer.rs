@@ -46,17 +46,28 @@ impl Answerer {
         Self::Naive(mesh, bounds)
     }
 
-    /// Answers one ray; one that cannot be traced hits nothing.
-    pub(crate) fn answer(&self, mode: Mode, ray: &Ray) -> Answer {
+    /// Answers each ray, in their order; one that cannot be traced hits nothing.
+    pub(crate) fn answers(&self, mode: Mode, rays: &[Ray]) -> Vec<Answer> {
         match mode {
-            Mode::Closest => Answer::Closest(self.closest_hit(ray).map(|hit| {
-                let normal = self.mesh().geometric_normal(hit.primitive_id);
-                (hit, glam::DVec3::from(normal).normalize_or_zero().into())
-            })),
-            Mode::Any => Answer::Any(self.any_hit(ray)),
-            Mode::All => Answer::All(self.all_hits(ray)),
-            Mode::Count => Answer::Count(self.count(ray)),
+            Mode::Closest => {
+                let mut hits = vec![None; rays.len()];
+                self.closest_hits(rays, &mut hits);
+                hits.into_iter().map(|hit| Answer::Closest(self.with_normal(hit))).collect()
+            }
+            Mode::Any => {
+                let mut found = vec![false; rays.len()];
+                self.any_hits(rays, &mut found);
+                found.into_iter().map(Answer::Any).collect()
+            }
+            Mode::All => rays.iter().map(|ray| Answer::All(self.all_hits(ray))).collect(),
+            Mode::Count => rays.iter().map(|ray| Answer::Count(self.count(ray))).collect(),
         }
+    }
+
+    fn with_normal(&self, hit: Option<Hit>) -> Option<(Hit, [f64; 3])> {
+        let hit = hit?;
+        let normal = self.mesh().geometric_normal(hit.primitive_id);
+        Some((hit, glam::DVec3::from(normal).normalize_or_zero().into()))
     }
 
     fn mesh(&self) -> &TriangleMesh {
@@ -66,17 +77,23 @@ impl Answerer {
         }
     }
 
-    fn closest_hit(&self, ray: &Ray) -> Option<Hit> {
+    fn closest_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
         match self {
-            Self::Tree(scene) => scene.closest_hit(ray),
-            Self::Naive(mesh, bounds) => Naive::new(mesh, *bounds).closest_hit(ray),
+            Self::Tree(scene) => scene.closest_hits(rays, hits),
+            Self::Naive(mesh, bounds) => {
+                let naive = Naive::new(mesh, *bounds);
+                rays.iter().zip(hits).for_each(|(ray, hit)| *hit = naive.closest_hit(ray));
+            }
         }
     }
 
-    fn any_hit(&self, ray: &Ray) -> bool {
+    fn any_hits(&self, rays: &[Ray], found: &mut [bool]) {
         match self {
-            Self::Tree(scene) => scene.any_hit(ray),
-            Self::Naive(mesh, bounds) => Naive::new(mesh, *bounds).any_hit(ray),
+            Self::Tree(scene) => scene.any_hits(rays, found),
+            Self::Naive(mesh, bounds) => {
+                let naive = Naive::new(mesh, *bounds);
+                rays.iter().zip(found).for_each(|(ray, found)| *found = naive.any_hit(ray));
+            }
         }
     }
 

@@ -71,7 +71,6 @@ impl<const K: usize> KdTree<K> {
     ///
     /// # Errors
     /// See [`BuildError`].
-    #[cfg_attr(not(test), expect(dead_code, reason = "layouts with tight boxes will take it"))]
     pub(crate) fn build_with_bounds(
         primitives: &impl Primitives<K>,
         options: &BuildOptions,

@@ -47,8 +47,9 @@ pub struct BuildOptions {
 }
 
 impl Default for BuildOptions {
+    /// Those of [`Preset::Balanced`].
     fn default() -> Self {
-        Self::for_strategy(Strategy::Sah)
+        Self::preset(Preset::default())
     }
 }
 

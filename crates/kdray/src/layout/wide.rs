@@ -42,13 +42,13 @@ struct Placer<'a> {
 }
 
 impl WideTree {
-    /// The wide form of `tree`, which is one over `mesh`. `None` if the kernels' numbers, f32,
-    /// cannot hold it: if the mesh is larger than 2^32 or smaller than 2^-32, or the tree is larger
-    /// than 16 GiB or degenerate.
-    pub fn new(tree: &KdTree<3>, mesh: &TriangleMesh) -> Option<Self> {
+    /// The wide form of `tree`, which is one over `mesh`; `bounds` are those of the parts of the
+    /// triangles that its leaves list. `None` if the mesh is larger than 2^32 or smaller than 2^-32,
+    /// for the kernels' numbers are f32, or if the tree is larger than 16 GiB or degenerate.
+    pub(crate) fn new(tree: &KdTree<3>, bounds: &[Aabb<3>], mesh: &TriangleMesh) -> Option<Self> {
         let reach = reach(tree.bounds())?;
         let pad = f64::from(12.0 * ROUNDING * reach);
-        let boxes = tight_boxes(tree, mesh);
+        let boxes = tight_boxes(tree, bounds);
         let mut placer = Placer { mesh, tree, boxes, pad, arena: Arena::default() };
         let root = placer.place_node(0)?;
         placer.arena.shrink_to_fit();

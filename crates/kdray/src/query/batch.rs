@@ -2,15 +2,22 @@
 
 use super::{Arithmetic, Scene};
 use crate::geometry::Ray;
-use crate::layout::WideTree;
 use crate::primitives::Hit;
 use crate::traverse::wide::{Any, Batch, Closest, Search};
 
-/// Trees of more bytes are searched by the batch kernel. It takes more instructions than one ray
-/// after the other, but waits less: for memory that is not in the caches, above all.
-const BATCH_PAYS: usize = 8 << 20;
-
 impl Scene {
+    /// Batches on wide trees of more bytes than this take turns between rays: that takes more
+    /// instructions than one ray after the other, but waits less for memory that is not in the
+    /// caches.
+    pub const BATCH_PAYS: usize = 8 << 20;
+
+    /// The same scene, whose batches take turns between rays if the wide tree is of more than
+    /// `bytes`, [`BATCH_PAYS`](Self::BATCH_PAYS) by default. The hits are the same.
+    #[must_use]
+    pub fn with_batches_above(self, bytes: usize) -> Self {
+        Self { batches_above: bytes, ..self }
+    }
+
     /// [`closest_hit`](Self::closest_hit) of each ray, on this thread: `hits[i]` is that of
     /// `rays[i]`. Takes no memory.
     ///
@@ -101,15 +108,11 @@ impl Scene {
         mut found: impl FnMut(usize, Q::Answer),
     ) {
         let rays = rays.into_iter();
-        match self.wide.as_ref().filter(|tree| suits_batches(tree)) {
+        match self.wide_tree().filter(|tree| tree.bytes() > self.batches_above) {
             Some(tree) => self.instructions.run(Batch::<Q, _, _, _>::new(tree, rays, one, found)),
             None => rays.enumerate().for_each(|(index, ray)| found(index, one(&ray))),
         }
     }
-}
-
-fn suits_batches(tree: &WideTree) -> bool {
-    tree.bytes() > BATCH_PAYS
 }
 
 /// Hands `rays` to several threads, with the room for their answers.

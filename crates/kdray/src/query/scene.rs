@@ -3,15 +3,16 @@
 use super::{Arithmetic, ShapeScene};
 use crate::build::{BuildError, BuildOptions, BuildProgress};
 use crate::geometry::Ray;
-use crate::layout::WideTree;
+use crate::layout::{TriangleBlock, WideTree};
 use crate::primitives::{Hit, TriangleMesh};
 use crate::simd::InstructionSet;
 use crate::traverse::AllHits;
 use crate::traverse::wide::{Any, Closest, NoAim, Single};
 use crate::tree::KdTree;
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
-/// A triangle mesh with a kd-tree over it, ready for queries from any thread.
+/// A triangle mesh with a kd-tree over it, ready for queries from any thread. Clones share both.
 ///
 /// A ray that [`Ray::check`] refuses hits nothing.
 ///
@@ -29,14 +30,23 @@ use std::ops::ControlFlow;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Scene {
-    shapes: ShapeScene<TriangleMesh>,
-    pub(super) wide: Option<WideTree>,
+    trees: Arc<Trees>,
     pub(super) arithmetic: Arithmetic,
     pub(super) instructions: InstructionSet,
+    pub(super) batches_above: usize,
+}
+
+#[derive(Debug)]
+struct Trees {
+    shapes: ShapeScene<TriangleMesh>,
+    wide: Option<WideTree>,
 }
 
 impl Scene {
     /// Builds the trees over `mesh`.
+    ///
+    /// A tree whose cost was weighed for blocks of eight triangles, as by every
+    /// [`Preset`](crate::build::Preset), is made wide; others are for the scalar traversal.
     ///
     /// # Errors
     /// See [`BuildError`].
@@ -54,10 +64,19 @@ impl Scene {
         options: &BuildOptions,
         progress: &(dyn Fn(BuildProgress) -> ControlFlow<()> + Sync),
     ) -> Result<Self, BuildError> {
-        let shapes = ShapeScene::build_with_progress(mesh, options, progress)?;
-        let wide = WideTree::new(shapes.tree(), shapes.primitives());
-        let (arithmetic, instructions) = (Arithmetic::default(), InstructionSet::best());
-        Ok(Self { shapes, wide, arithmetic, instructions })
+        let (shapes, wide) = if options.cost.block == TriangleBlock::WIDTH {
+            let (tree, bounds) = KdTree::build_with_bounds(&mesh, options, progress)?;
+            let wide = WideTree::new(&tree, &bounds, &mesh);
+            (ShapeScene::of_tree(mesh, tree), wide)
+        } else {
+            (ShapeScene::build_with_progress(mesh, options, progress)?, None)
+        };
+        Ok(Self {
+            trees: Arc::new(Trees { shapes, wide }),
+            arithmetic: Arithmetic::default(),
+            instructions: InstructionSet::best(),
+            batches_above: Self::BATCH_PAYS,
+        })
     }
 
     /// The same scene, with hits decided by `arithmetic`.
@@ -74,33 +93,37 @@ impl Scene {
 
     /// What rays are tested against.
     pub fn mesh(&self) -> &TriangleMesh {
-        self.shapes.primitives()
+        self.trees.shapes.primitives()
     }
 
-    /// Gives the mesh back.
+    /// Gives the mesh back; a copy if other clones of the scene are in use.
     pub fn into_mesh(self) -> TriangleMesh {
-        self.shapes.into_primitives()
+        match Arc::try_unwrap(self.trees) {
+            Ok(trees) => trees.shapes.into_primitives(),
+            Err(shared) => shared.shapes.primitives().clone(),
+        }
     }
 
     /// The canonical tree.
     pub fn tree(&self) -> &KdTree {
-        self.shapes.tree()
+        self.trees.shapes.tree()
     }
 
-    /// The wide tree, unless the mesh is out of its range: see [`WideTree::new`].
+    /// The wide tree; `None` if the options did not ask for it, or the mesh is out of the range of
+    /// its f32: larger than 2^32 or smaller than 2^-32, or the tree larger than 16 GiB.
     pub fn wide_tree(&self) -> Option<&WideTree> {
-        self.wide.as_ref()
+        self.trees.wide.as_ref()
     }
 
     /// The same mesh and canonical tree with the scalar traversal, which can be watched.
     pub fn shapes(&self) -> &ShapeScene<TriangleMesh> {
-        &self.shapes
+        &self.trees.shapes
     }
 
     /// The hit of least t; of several at the same t, the one of the smallest primitive id.
     #[must_use]
     pub fn closest_hit(&self, ray: &Ray) -> Option<Hit> {
-        let Some(tree) = &self.wide else { return self.shapes.closest_hit(ray) };
+        let Some(tree) = &self.trees.wide else { return self.trees.shapes.closest_hit(ray) };
         let found = match self.arithmetic {
             Arithmetic::Exact => self.instructions.run(Single::<Closest<true>>::new(tree, ray)),
             Arithmetic::Float => self.instructions.run(Single::<Closest<false>>::new(tree, ray)),
@@ -108,14 +131,14 @@ impl Scene {
         match found {
             Ok(hit) => hit,
             Err(NoAim::Missed) => None,
-            Err(NoAim::OutOfRange) => self.shapes.closest_hit(ray),
+            Err(NoAim::OutOfRange) => self.trees.shapes.closest_hit(ray),
         }
     }
 
     /// Whether there is any hit: whether `ray.interval` is occluded.
     #[must_use]
     pub fn any_hit(&self, ray: &Ray) -> bool {
-        let Some(tree) = &self.wide else { return self.shapes.any_hit(ray) };
+        let Some(tree) = &self.trees.wide else { return self.trees.shapes.any_hit(ray) };
         let found = match self.arithmetic {
             Arithmetic::Exact => self.instructions.run(Single::<Any<true>>::new(tree, ray)),
             Arithmetic::Float => self.instructions.run(Single::<Any<false>>::new(tree, ray)),
@@ -123,7 +146,7 @@ impl Scene {
         match found {
             Ok(is_hit) => is_hit,
             Err(NoAim::Missed) => false,
-            Err(NoAim::OutOfRange) => self.shapes.any_hit(ray),
+            Err(NoAim::OutOfRange) => self.trees.shapes.any_hit(ray),
         }
     }
 
@@ -131,26 +154,26 @@ impl Scene {
     /// one on every run.
     #[must_use]
     pub fn occluder(&self, ray: &Ray) -> Option<Hit> {
-        self.shapes.occluder(ray)
+        self.trees.shapes.occluder(ray)
     }
 
     /// Every crossing of a surface, once, by rising t
     /// ([`HitRule::Crossing`](crate::primitives::HitRule::Crossing)), found as they are asked for.
     pub fn all_hits(&self, ray: &Ray) -> AllHits<'_, TriangleMesh, 3> {
-        self.shapes.all_hits(ray)
+        self.trees.shapes.all_hits(ray)
     }
 
     /// Every triangle that the ray touches, by rising t
     /// ([`HitRule::Touching`](crate::primitives::HitRule::Touching)): on a shared edge each of its
     /// triangles.
     pub fn all_touched(&self, ray: &Ray) -> AllHits<'_, TriangleMesh, 3> {
-        self.shapes.all_touched(ray)
+        self.trees.shapes.all_touched(ray)
     }
 
     /// How many surfaces the ray crosses: the number of [`all_hits`](Self::all_hits). On a closed
     /// mesh it is even for a ray from outside without end, and odd for one from inside.
     #[must_use]
     pub fn count(&self, ray: &Ray) -> usize {
-        self.shapes.count(ray)
+        self.trees.shapes.count(ray)
     }
 }

@@ -10,14 +10,15 @@ use std::ops::ControlFlow;
 /// Any primitives with a kd-tree over them, in K dimensions, ready for queries from any thread: the
 /// scalar traversal of the canonical tree, which can be watched.
 ///
-/// A ray that [`Ray::check`] refuses hits nothing. For triangle meshes [`Scene`](crate::Scene) gives
+/// A ray that [`Ray::check`] refuses hits nothing. Primitives are tested one by one, so trees by
+/// [`BuildOptions::for_strategy`] suit it best. For triangle meshes [`Scene`](crate::Scene) gives
 /// the same answers faster.
 ///
 /// ```
 /// use kdray::primitives::Balls;
-/// use kdray::{BuildOptions, Ray, ShapeScene};
+/// use kdray::{BuildOptions, Ray, ShapeScene, Strategy};
 /// let balls = Balls::new(vec![([0.0, 0.0, 5.0], 1.0)])?;
-/// let scene = ShapeScene::build(balls, &BuildOptions::default())?;
+/// let scene = ShapeScene::build(balls, &BuildOptions::for_strategy(Strategy::Sah))?;
 /// let hit = scene.closest_hit(&Ray::new([0.0; 3], [0.0, 0.0, 1.0])).expect("a ball is ahead");
 /// assert_eq!(hit.t, 4.0);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -48,7 +49,12 @@ impl<P: Intersect<K>, const K: usize> ShapeScene<P, K> {
         progress: &(dyn Fn(BuildProgress) -> ControlFlow<()> + Sync),
     ) -> Result<Self, BuildError> {
         let tree = KdTree::build_with_progress(&primitives, options, progress)?;
-        Ok(Self { primitives, tree })
+        Ok(Self::of_tree(primitives, tree))
+    }
+
+    /// Takes a tree over `primitives` as it is.
+    pub(super) fn of_tree(primitives: P, tree: KdTree<K>) -> Self {
+        Self { primitives, tree }
     }
 
     /// What rays are tested against.
