@@ -26,6 +26,9 @@ const ROUNDS_QUICK: u32 = 3;
 pub(crate) const LONGEST_TRACE: f64 = 0.4;
 const LONGEST_TRACE_QUICK: f64 = 0.2;
 
+/// Builds are repeated until they took so many seconds in all.
+const BUILDS: f64 = 0.6;
+
 /// What is the same for all scenes.
 struct Run<'a> {
     options: &'a Compare,
@@ -143,11 +146,11 @@ impl Run<'_> {
         for contender in &self.contenders {
             let contender = contender.as_ref();
             let start = Instant::now();
-            let (built, row) = measure::build(contender, scene, &one, self.rounds)?;
+            let (built, row) = measure::build(contender, scene, &one, (self.rounds, BUILDS))?;
             ready.push(built);
             rows.push(row);
             if contender.builds_on() == Threads::Chosen && !self.options.quick {
-                rows.push(measure::build(contender, scene, &two, self.rounds)?.1);
+                rows.push(measure::build(contender, scene, &two, (self.rounds, BUILDS))?.1);
             }
             let row = rows.last().map_or(0.0, |row| row.bytes_per_triangle);
             let took = spoken(start.elapsed());

@@ -20,9 +20,6 @@ use std::time::{Duration, Instant};
 /// A sample has never fewer rays than one in this many.
 const SMALLEST_SAMPLE: usize = 32;
 
-/// Builds are repeated until they took this long in all.
-const BUILDS: f64 = 0.6;
-
 /// Processor and wall time, in seconds.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Took {
@@ -50,12 +47,12 @@ pub(crate) struct Ready<'a> {
     built: Box<dyn Built + 'a>,
 }
 
-/// Builds a contender's structure, several times if it is quick.
+/// Builds a contender's structure, `rounds` times, or until that took so many `seconds` in all.
 pub(crate) fn build<'a>(
     contender: &'a dyn Contender,
     scene: &'a BenchScene,
     workers: &Workers,
-    rounds: u32,
+    (rounds, seconds): (u32, f64),
 ) -> Result<(Ready<'a>, BuildRow), BenchError> {
     let (mut cpu, mut wall) = (Vec::new(), Vec::new());
     loop {
@@ -64,7 +61,7 @@ pub(crate) fn build<'a>(
         let built = built?;
         cpu.push(took.cpu);
         wall.push(took.wall);
-        if wall.len() < rounds as usize && wall.iter().sum::<f64>() < BUILDS {
+        if wall.len() < rounds as usize && wall.iter().sum::<f64>() < seconds {
             continue;
         }
         let rust = memory::in_use().saturating_sub(before);

@@ -91,10 +91,19 @@ impl Report {
         self.distinct(|row| &row.contender)
     }
 
-    /// The geometric mean over the scenes of a contender's ratios in a set.
-    fn mean_ratio(&self, set: &str, contender: &str) -> Option<f64> {
+    /// Whether there was Embree to compare with.
+    fn has_ratios(&self) -> bool {
+        self.rays.iter().any(|row| row.ratio.is_some())
+    }
+
+    /// The geometric mean over the scenes of a contender's ratios in a set; of its rates if there
+    /// are no ratios.
+    fn mean(&self, set: &str, contender: &str) -> Option<f64> {
         let rows = self.rays.iter().filter(|row| row.set == set && row.contender == contender);
-        geometric_mean(rows.map(|row| row.ratio))
+        match self.has_ratios() {
+            true => geometric_mean(rows.map(|row| row.ratio)),
+            false => geometric_mean(rows.map(|row| Some(row.mrays))),
+        }
     }
 }
 
@@ -211,9 +220,12 @@ pub(crate) mod tests {
 
     #[test]
     fn means_are_geometric() {
-        let mean = report().mean_ratio("primary", "b & c").unwrap();
+        let mean = report().mean("primary", "b & c").unwrap();
         assert!((mean - 1.0).abs() < 1e-12, "{mean}");
-        assert_eq!(report().mean_ratio("ao", "a"), None);
+        assert_eq!(report().mean("ao", "a"), None);
+        let mut report = report();
+        report.rays.iter_mut().for_each(|row| row.ratio = None);
+        assert!((report.mean("primary", "b & c").unwrap() - 3.0).abs() < 1e-12);
     }
 
     #[test]

@@ -1,4 +1,5 @@
-//! The geometric means of the ratios as bars, a panel for each set of rays.
+//! The geometric means of the ratios as bars, a panel for each set of rays; those of the rates if
+//! there was no Embree to compare with.
 
 use super::Report;
 use crate::error::BenchError;
@@ -53,13 +54,17 @@ fn rasterise(svg: &str) -> Result<Vec<u8>, String> {
     pixels.encode_png().map_err(|error| error.to_string())
 }
 
-/// A panel's bars: contender and mean ratio.
+/// A panel's bars: contender and mean.
 type Bars<'a> = Vec<(&'a str, f64)>;
 
 fn draw(report: &Report) -> SVG {
+    let title = match report.has_ratios() {
+        true => "Rays a second, one thread; Embree MEDIUM, single = 1",
+        false => "Million rays a second, one thread",
+    };
     let sets = report.sets();
     let bars = |set: &str| -> Bars<'_> {
-        let means = |name| Some((name, report.mean_ratio(set, name)?));
+        let means = |name| Some((name, report.mean(set, name)?));
         report.contenders().into_iter().filter_map(means).collect()
     };
     let panels: Vec<(&str, Bars<'_>)> = sets.into_iter().map(|set| (set, bars(set))).collect();
@@ -72,17 +77,12 @@ fn draw(report: &Report) -> SVG {
         .set("width", width)
         .set("height", height)
         .set("font-family", "DejaVu Sans, Verdana, Arial, sans-serif")
-        .add(Title::new("Rays a second, by those of Embree"))
+        .add(Title::new(title))
         .add(rectangle([0.0, 0.0], [width, height], "#ffffff"));
     let scenes: Vec<&str> = report.scenes.iter().map(|(name, _)| name.as_str()).collect();
     let machine = &report.machine;
     svg = svg
-        .add(text(
-            [16.0, 26.0],
-            "start",
-            17.0,
-            "Rays a second, one thread; Embree MEDIUM, single = 1",
-        ))
+        .add(text([16.0, 26.0], "start", 17.0, title))
         .add(text([16.0, 46.0], "start", 11.0, &format!("{}, {}", machine.cpu, machine.date)))
         .add(text(
             [16.0, 62.0],
@@ -90,36 +90,35 @@ fn draw(report: &Report) -> SVG {
             11.0,
             &format!("geometric means over {}", scenes.join(", ")),
         ));
-    for (index, (set, bars)) in panels.iter().enumerate() {
+    for (index, content) in panels.iter().enumerate() {
         let at = [16.0 + (index % 2) as f64 * PANEL, HEAD + (index / 2) as f64 * panel_height];
-        svg = panel(svg, at, set, bars);
+        svg = panel(svg, at, content, report.has_ratios());
     }
     svg
 }
 
-/// A headline, a bar for each contender, and a line where Embree is.
-fn panel(mut svg: SVG, [x, y]: [f64; 2], set: &str, bars: &Bars<'_>) -> SVG {
-    let largest = bars.iter().map(|(_, ratio)| *ratio).fold(1.0, f64::max);
+/// A headline, a bar for each contender, and for ratios a line at one, where Embree is.
+fn panel(mut svg: SVG, [x, y]: [f64; 2], (set, bars): &(&str, Bars<'_>), has_ratios: bool) -> SVG {
+    let largest = bars.iter().map(|(_, value)| *value).fold(1.0, f64::max);
     let scale = (PANEL - LABELS - 64.0) / largest;
     let (left, top) = (x + LABELS, y + 26.0);
+    let (one, bottom) = (left + scale, top + bars.len() as f64 * BAR + 2.0);
+    let line = Line::new().set("x1", one).set("x2", one).set("y1", top - 2.0).set("y2", bottom);
+    let line = line.set("stroke", GREY).set("stroke-dasharray", "3 2");
     svg = svg.add(text([x, y + 14.0], "start", 14.0, set));
-    for (index, (name, ratio)) in bars.iter().enumerate() {
+    if has_ratios {
+        svg = svg.add(line);
+    }
+    for (index, (name, value)) in bars.iter().enumerate() {
         let y = top + index as f64 * BAR;
         let color = if name.starts_with("kdray") { OURS } else { OTHERS };
-        let bar = rectangle([left, y + 2.0], [ratio * scale, BAR - 4.0], color);
+        let bar = rectangle([left, y + 2.0], [value * scale, BAR - 4.0], color);
         svg = svg
             .add(text([left - 6.0, y + 13.0], "end", 11.5, name))
             .add(bar.set("class", "bar"))
-            .add(text(
-                [left + ratio * scale + 5.0, y + 13.0],
-                "start",
-                11.0,
-                &format!("{ratio:.2}"),
-            ));
+            .add(on_line([left + value * scale + 5.0, y + 13.0], &format!("{value:.2}")));
     }
-    let (one, bottom) = (left + scale, top + bars.len() as f64 * BAR + 2.0);
-    let line = Line::new().set("x1", one).set("x2", one).set("y1", top - 2.0).set("y2", bottom);
-    svg.add(line.set("stroke", GREY).set("stroke-dasharray", "3 2"))
+    svg
 }
 
 fn rectangle([x, y]: [f64; 2], [width, height]: [f64; 2], color: &str) -> Rectangle {
@@ -130,6 +129,12 @@ fn rectangle([x, y]: [f64; 2], [width, height]: [f64; 2], color: &str) -> Rectan
 fn text([x, y]: [f64; 2], anchor: &str, size: f64, content: &str) -> Text {
     let place = Text::new(content).set("x", x).set("y", y).set("fill", INK);
     place.set("text-anchor", anchor).set("font-size", size)
+}
+
+/// A value that stays readable on the line, by a white seam around its digits.
+fn on_line(at: [f64; 2], content: &str) -> Text {
+    let seam = text(at, "start", 11.0, content).set("stroke", "#ffffff").set("stroke-width", 3);
+    seam.set("paint-order", "stroke")
 }
 
 #[cfg(test)]

@@ -13,13 +13,12 @@ pub(super) fn text(report: &Report) -> String {
     text +=
         &format!("{side} x {side} primary rays, medians of {rounds} rounds in turn, one thread.\n");
     for set in report.sets() {
-        text += &format!(
-            "\n{set}: ratio to Embree MEDIUM, single rays; million rays a second by processor time; \
-             by wall time\n"
-        );
+        text += &format!("\n{set}: ratio to Embree MEDIUM with single rays; ");
+        text += "million rays a second by processor time; by wall time\n";
         text += &columns(&rates(report, set));
     }
-    text += "\nGeometric means of the ratios\n";
+    let values = if report.has_ratios() { "ratios" } else { "rates" };
+    text += &format!("\nGeometric means of the {values}\n");
     text += &columns(&means(report));
     text += "\nWrong answers in all scenes: lost / phantom / far of so many rays\n";
     text += &columns(&wrong(report));
@@ -67,7 +66,7 @@ fn rates(report: &Report, set: &str) -> Vec<Vec<String>> {
     };
     let row = |contender: &str| {
         let cells = report.scenes.iter().map(|(scene, _)| rate(of_set(contender, scene)));
-        let mean = ratio(report.mean_ratio(set, contender));
+        let mean = ratio(report.mean(set, contender));
         std::iter::once(contender.to_owned()).chain(cells).chain([mean]).collect()
     };
     let contenders = report.contenders();
@@ -94,8 +93,7 @@ fn means(report: &Report) -> Vec<Vec<String>> {
     let names = sets.iter().map(|set| (*set).to_owned());
     let head = std::iter::once(String::new()).chain(names).chain(["all".to_owned()]).collect();
     let row = |contender: &str| {
-        let means: Vec<Option<f64>> =
-            sets.iter().map(|set| report.mean_ratio(set, contender)).collect();
+        let means: Vec<Option<f64>> = sets.iter().map(|set| report.mean(set, contender)).collect();
         let all = geometric_mean(means.iter().copied());
         let cells = means.into_iter().chain([all]).map(ratio);
         std::iter::once(contender.to_owned()).chain(cells).collect()
