@@ -2,6 +2,7 @@
 
 use crate::cases::{Aimed, Case};
 use kdray::geometry::BoundingSphere;
+use kdray::simd::UnknownInstructionSet;
 use kdray::traverse::Naive;
 use kdray::{
     BuildOptions, CostModel, Hit, InstructionSet, KdTree, Scene, ShapeScene, TriangleMesh,
@@ -36,7 +37,7 @@ pub(crate) fn on_each_mesh(
 ) {
     let instructions = match InstructionSet::of_name(instructions) {
         Ok(instructions) => instructions,
-        Err(unknown) => return eprintln!("not run: {unknown}"),
+        Err(unknown) => return not_run(&unknown),
     };
     let options = BuildOptions { cost: CostModel { block: 8, ..options.cost }, ..*options };
     for case in cases {
@@ -48,6 +49,11 @@ pub(crate) fn on_each_mesh(
             panic!("case {:?}, {error}", case.name);
         }
     }
+}
+
+#[expect(clippy::print_stderr, reason = "whoever reads the log should know")]
+fn not_run(unknown: &UnknownInstructionSet) {
+    eprintln!("not run: {unknown}");
 }
 
 /// Checks the answers to the rays of a case, and to rays in the split planes of its tree.

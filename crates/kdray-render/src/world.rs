@@ -107,7 +107,7 @@ impl World {
     }
 
     /// The model, whose `vertices` and `triangles` have moved to
-    /// [`scene().primitives()`](Scene::primitives).
+    /// [`scene().mesh()`](Scene::mesh).
     pub fn model(&self) -> &Model {
         &self.model
     }

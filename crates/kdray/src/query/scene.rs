@@ -30,14 +30,14 @@ use std::sync::Arc;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Scene {
-    trees: Arc<Trees>,
+    pub(super) trees: Arc<Trees>,
     pub(super) arithmetic: Arithmetic,
     pub(super) instructions: InstructionSet,
     pub(super) batches_above: usize,
 }
 
 #[derive(Debug)]
-struct Trees {
+pub(super) struct Trees {
     shapes: ShapeScene<TriangleMesh>,
     wide: Option<WideTree>,
 }

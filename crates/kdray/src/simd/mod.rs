@@ -1,6 +1,6 @@
 //! Eight numbers at a time, on whatever instructions the processor has.
 //!
-//! The kernels are written once, over [`Lanes`]; an [`InstructionSet`] runs them compiled for
+//! The kernels are written once, over vectors of any set; an [`InstructionSet`] runs them compiled for
 //! itself. The vectors are those of the crate `fearless_simd`, so nothing here is `unsafe`.
 
 mod instruction_set;

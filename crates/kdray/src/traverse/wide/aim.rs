@@ -7,8 +7,15 @@ use crate::layout::WideTree;
 /// Half the distance from 1 to the next f32.
 const ROUNDING: f64 = (f32::EPSILON / 2.0) as f64;
 
-/// A direction's component counts as so much of the largest at least, where it is divided by.
-const LEAST_COMPONENT: f32 = 1.0 / (1_u64 << 40) as f32;
+/// Directions whose largest component is from the inverse of this to this are taken as they are.
+const LARGEST_COMPONENT: f64 = (1 << 16) as f64;
+
+/// What a direction's component counts as at least where it is divided by: 2^-40 of the largest.
+const LEAST_COMPONENT: f32 = 1.0 / (1_u64 << 56) as f32;
+
+/// The largest components of directions that are taken as they are, as bits.
+const PLAIN_SIZES: std::ops::Range<u64> =
+    (1.0 / LARGEST_COMPONENT).to_bits()..LARGEST_COMPONENT.to_bits();
 
 /// The largest components of directions that can be scaled without loss, as bits.
 const SIZES: std::ops::Range<u64> = 1e-290_f64.to_bits()..1e290_f64.to_bits();
@@ -23,8 +30,8 @@ const HIT_ERROR: f64 = 1.0 / (1_u64 << 38) as f64;
 /// More than what rounding to f32 changes, relatively.
 const F32_SLACK: f64 = 1.0 / (1 << 22) as f64;
 
-/// A ray in f32: the direction scaled by a power of two so that its largest component is from 1 to
-/// 2, the origin moved along the ray into the tree's reach.
+/// A ray in f32: the direction scaled by a power of two if it is very long or very short, the origin
+/// moved along the ray into the tree's reach if it is far away.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Aim {
     pub(super) origin: [f32; 3],
@@ -41,6 +48,8 @@ pub(crate) struct Aim {
     /// share: see [`super::block`].
     pub(super) edge_error: f32,
     t_error: f32,
+    /// 2^-16 of the way by which the origin was moved.
+    blur: f32,
     /// What the distance from the origin counts as at least in error bounds, because the true
     /// origin is not an f32: 2^23 times the difference.
     pub(super) least_distance: f32,
@@ -70,6 +79,7 @@ impl Aim {
         t_far: 0.0,
         edge_error: 0.0,
         t_error: 0.0,
+        blur: 0.0,
         least_distance: 0.0,
         scale: 0.0,
         shift: 0.0,
@@ -80,18 +90,14 @@ impl Aim {
     pub(super) fn set(&mut self, tree: &WideTree, ray: &Ray<3>) -> Result<(), NoAim> {
         let reach = tree.reach();
         let (largest, farthest) = (size(&ray.direction), size(&ray.origin));
-        if ray.interval.is_empty() {
-            return Err(NoAim::Missed);
-        }
-        if !SIZES.contains(&largest) || farthest > f64::from(reach).to_bits() {
+        if !PLAIN_SIZES.contains(&largest) || farthest > f64::from(reach).to_bits() {
             return self.set_from_afar(f64::from(reach), ray);
         }
-        (self.scale, self.shift) = (power_of_two_below(largest), 0.0);
-        let direction = ray.direction.map(|d| d * (1.0 / self.scale));
-        self.set_in_reach(ray.interval, &ray.origin, &direction, 0.0, f64::from(reach))
+        (self.scale, self.shift) = (1.0, 0.0);
+        self.set_in_reach(ray.interval, &ray.origin, &ray.direction, 0.0, f64::from(reach))
     }
 
-    /// A ray that starts beyond the reach, or that is none.
+    /// A ray that starts beyond the reach, is very long or very short, or is none.
     #[cold]
     #[inline(never)]
     fn set_from_afar(&mut self, reach: f64, ray: &Ray<3>) -> Result<(), NoAim> {
@@ -104,6 +110,10 @@ impl Aim {
         }
         self.scale = power_of_two_below(largest);
         let direction = ray.direction.map(|d| d * (1.0 / self.scale));
+        if farthest <= reach {
+            self.shift = 0.0;
+            return self.set_in_reach(ray.interval, &ray.origin, &direction, 0.0, reach);
+        }
         let shift = entry(reach, &ray.origin, &direction).ok_or(NoAim::Missed)?;
         self.shift = shift;
         let origin = std::array::from_fn(|k| ray.origin[k] + shift * direction[k]);
@@ -112,7 +122,7 @@ impl Aim {
     }
 
     /// From the ray's interval, a point of its line within the reach (moving which there erred by
-    /// `moving`), and its direction, scaled.
+    /// `moving`), and its direction, whose largest component is from 2^-16 to 2^16.
     #[inline(always)]
     fn set_in_reach(
         &mut self,
@@ -122,12 +132,15 @@ impl Aim {
         moving: f64,
         reach: f64,
     ) -> Result<(), NoAim> {
-        // Beyond this the ray has left the reach, and with it the tree, on its largest axis.
-        let t_end = 2.5 * reach;
-        let slack = (self.shift.abs() + t_end) * HIT_ERROR;
-        let t_near = larger(interval.t_min * self.scale - self.shift, -t_end) - slack;
-        let t_far = -larger(self.shift - interval.t_max * self.scale, -t_end) + slack;
-        if t_near > t_far {
+        // Beyond this the ray has left the reach, and with it the tree, on its largest axis. Finite,
+        // so that no product with it is NaN.
+        let t_end = reach * (2.5 * LARGEST_COMPONENT);
+        let (t_min, t_max) = (interval.t_min * self.scale, interval.t_max * self.scale);
+        let is_open = t_min <= t_max && t_min < f64::INFINITY && t_max > f64::NEG_INFINITY;
+        let slack = |t: f64| (t.abs() + self.shift.abs()) * HIT_ERROR;
+        let t_near = larger(t_min - self.shift - slack(t_min), -t_end);
+        let t_far = -larger(self.shift - t_max - slack(t_max), -t_end);
+        if !is_open || t_near > t_far {
             return Err(NoAim::Missed);
         }
         self.t_near = (t_near - t_near.abs() * F32_SLACK) as f32;
@@ -148,14 +161,16 @@ impl Aim {
         self.octant = sign(x) | sign(y) << 1 | sign(z) << 2;
         let length = x.abs() + y.abs() + z.abs();
         (self.edge_error, self.t_error) = (EDGE_ERROR * length, T_ERROR * length);
+        self.blur = (self.shift.abs() * (1.0 / (1 << 16) as f64)) as f32;
         self.least_distance = ((off + moving) * (0.5 / ROUNDING)) as f32;
         Ok(())
     }
 
-    /// What t adds to the error of T − t·den, a unit of ē².
+    /// What t adds to the error of T − t·den, a unit of ē². Where the origin was moved, the ends of
+    /// the interval are less sharp.
     #[inline(always)]
     pub(super) fn error_at(&self, t: f32) -> f32 {
-        self.t_error * t.abs()
+        self.t_error * (t.abs() + self.blur)
     }
 
     /// The kernels' t of a hit, or a little more.

@@ -14,6 +14,7 @@ const ROUNDING: f32 = f32::EPSILON / 2.0;
 pub(super) const EDGE_ERROR: f32 = 44.0 * ROUNDING;
 const VOLUME_ERROR: f32 = 64.0 * ROUNDING;
 pub(super) const T_ERROR: f32 = 40.0 * ROUNDING;
+/// What underflow may do: products of three numbers up to 2^34 that lost 2^-150 each, with room.
 const UNDERFLOW: f32 = f32::MIN_POSITIVE * (1 << 14) as f32;
 
 /// Möller and Trumbore's numbers (1997) of eight triangles, with the sign of den taken out: a ray
