@@ -67,12 +67,24 @@ pub fn split_bounds<const K: usize>(
     let mut buffers: [Polygon<K>; 2] = [Polygon::new(), Polygon::new()];
     let part = clipped(polygon, &whole, cell, pad(&whole, cell), &mut buffers);
     let (below, above) = cell.split(axis, position);
-    [(below, -1.0), (above, 1.0)].map(|(half, side)| {
-        let pad = pad(&whole, &half);
-        let cut = Cut { axis, plane: f64::from(position) - side * pad, side };
-        let bounds = bounds_beyond(part, &cut, pad).intersection(&whole.intersection(&half));
-        (!bounds.is_empty()).then_some(bounds)
-    })
+    [split_side(part, &whole, &below, axis, -1.0), split_side(part, &whole, &above, axis, 1.0)]
+}
+
+/// The bounds of the part of what is left of a polygon, which `whole` bounds, in `half`: the box
+/// on that side of a plane that is a face of it.
+#[inline]
+fn split_side<const K: usize>(
+    part: &Polygon<K>,
+    whole: &Aabb<K>,
+    half: &Aabb<K>,
+    axis: usize,
+    side: f64,
+) -> Option<Aabb<K>> {
+    let pad = pad(whole, half);
+    let position = if side < 0.0 { half.max[axis] } else { half.min[axis] };
+    let cut = Cut { axis, plane: f64::from(position) - side * pad, side };
+    let bounds = bounds_beyond(part, &cut, pad).intersection(&whole.intersection(half));
+    (!bounds.is_empty()).then_some(bounds)
 }
 
 /// The part of `polygon`, which `whole` bounds, that lies in `cell`, up to the pad.
@@ -103,9 +115,13 @@ fn clipped<'a, const K: usize>(
 
 /// 2^-40 of the largest coordinate: cutting six times in f64 errs by less than 2^-48 of it.
 fn pad<const K: usize>(whole: &Aabb<K>, cell: &Aabb<K>) -> f64 {
-    let largest = |p: &[f32; K]| p.iter().fold(0.0_f32, |m, x| m.max(x.abs()));
-    let all = [&whole.min, &whole.max, &cell.min, &cell.max].map(largest);
-    f64::from(all.into_iter().fold(0.0, f32::max)) * (1.0 / (1u64 << 40) as f64)
+    let mut largest = 0.0_f32;
+    for axis in 0..K {
+        let of_whole = whole.min[axis].abs().max(whole.max[axis].abs());
+        let of_cell = cell.min[axis].abs().max(cell.max[axis].abs());
+        largest = largest.max(of_whole.max(of_cell));
+    }
+    f64::from(largest) * (1.0 / (1u64 << 40) as f64)
 }
 
 /// A half-space: where `side · position[axis] ≥ side · plane`.

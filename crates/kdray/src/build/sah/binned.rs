@@ -118,8 +118,8 @@ impl Binned {
                 let position = scale.position(border);
                 let cost = view.cost(&self.cost, position, [below, above]);
                 if cost < least && view.is_inside(position) {
-                    let plane = SplitPlane { axis, position, planar: PlanarSide::Above };
-                    (least, best) = (cost, Some((border, Candidate { cost, plane })));
+                    let candidate = view.at(position, PlanarSide::Above, cost);
+                    (least, best) = (cost, Some((border, candidate)));
                 }
             }
         }

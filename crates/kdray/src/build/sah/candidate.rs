@@ -97,15 +97,20 @@ impl AxisView {
         counts: SideCounts,
     ) -> Candidate {
         let SideCounts { below, planar, above } = counts;
-        let plane = |planar| SplitPlane { axis: self.axis, position, planar };
         let cost_below = self.cost(cost, position, [below + planar, above]);
-        let first = Candidate { cost: cost_below, plane: plane(PlanarSide::Below) };
+        let first = self.at(position, PlanarSide::Below, cost_below);
         if planar == 0 {
             return first;
         }
         let cost_above = self.cost(cost, position, [below, above + planar]);
-        let second = Candidate { cost: cost_above, plane: plane(PlanarSide::Above) };
+        let second = self.at(position, PlanarSide::Above, cost_above);
         if second.beats(&first) { second } else { first }
+    }
+
+    /// The plane at `position`, of known cost.
+    #[inline]
+    pub(super) fn at(&self, position: f32, planar: PlanarSide, cost: f64) -> Candidate {
+        Candidate { cost, plane: SplitPlane { axis: self.axis, position, planar } }
     }
 }
 

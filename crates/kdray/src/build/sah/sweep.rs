@@ -6,7 +6,7 @@ use super::event::{Event, EventList, Kind};
 use crate::build::CostModel;
 use crate::build::distribute::Distribution;
 use crate::build::parallel::join_if;
-use crate::build::plane::SplitPlane;
+use crate::build::plane::{PlanarSide, SplitPlane};
 use crate::build::reference::Reference;
 use crate::build::steps::{ChoosePlane, Kept, NodeView};
 
@@ -97,9 +97,9 @@ pub(super) fn sweep(
         }
         above -= usize::from(event.kind() == Kind::End as usize);
         // Positions rise, so of equal costs the first is the better one.
-        if is_inside && view.cost(cost, position, [below, above]) < least {
-            let candidate = view.candidate(cost, position, SideCounts { below, planar: 0, above });
-            (least, best) = (candidate.cost, Some(candidate));
+        let found = view.cost(cost, position, [below, above]);
+        if is_inside && found < least {
+            (least, best) = (found, Some(view.at(position, PlanarSide::Below, found)));
         }
         below += usize::from(event.kind() == Kind::Start as usize);
     }
