@@ -172,6 +172,11 @@ pub(crate) fn light_above(
 
 /// A bit of everything: texture, mirror, glass, gloss, cut-out, soft and hard shadows.
 pub(crate) fn still_life() -> (World, Camera, Vec<Light>) {
+    still_life_in(&BuildOptions::default())
+}
+
+/// The same in a tree by other options.
+pub(crate) fn still_life_in(options: &BuildOptions) -> (World, Camera, Vec<Light>) {
     let mut model = Model { textures: vec![checker()], ..Model::default() };
     model.materials = vec![
         textured(Material { base_color: [1.0; 3], ..Material::default() }),
@@ -208,5 +213,5 @@ pub(crate) fn still_life() -> (World, Camera, Vec<Light>) {
         },
     ];
     let bounds = Aabb { min: [-2.4, 0.0, -1.4], max: [2.4, 2.0, 1.9] };
-    (world(model), frame(&bounds, 4.0 / 3.0), lights)
+    (World::new(model, options).unwrap(), frame(&bounds, 4.0 / 3.0), lights)
 }
