@@ -3,7 +3,7 @@
 //! The way of a run: scenes are loaded or made ([`scene`], [`synthetic`]), rays are made once and
 //! kept in files ([`rays`]), every contender builds its structure ([`contenders`]), the contenders
 //! take turns at tracing ([`measure`]) and their answers are held against an exact reference
-//! ([`reference`]); then all is told as a table, JSON and a plot ([`report`]).
+//! ([`mod@reference`]); then all is told as a table, JSON and a plot ([`report`]).
 
 mod args;
 mod compare;
