@@ -9,7 +9,8 @@ use std::path::PathBuf;
 /// scenes made by code; four sets of rays, all contenders, one thread. Rates are by the process's
 /// CPU time. See bench/README.md.
 #[derive(Debug, Parser)]
-#[command(name = "cargo xtask bench", args_conflicts_with_subcommands = true)]
+#[command(name = "cargo xtask bench", bin_name = "cargo xtask bench")]
+#[command(args_conflicts_with_subcommands = true)]
 pub(crate) struct Arguments {
     #[command(subcommand)]
     pub(crate) task: Option<Task>,

@@ -6,6 +6,7 @@ use super::{Quality, wheel};
 use crate::error::BenchError;
 use kdray::TriangleMesh;
 use libloading::Library;
+use std::mem::ManuallyDrop;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -15,10 +16,10 @@ pub(crate) struct Embree {
     inner: Arc<Open>,
 }
 
-/// The functions, and the library that they are in, which must outlive them.
+/// The functions. The library that they are in is never closed: threads that its scheduler started
+/// may run in it to the end of the process.
 pub(super) struct Open {
     pub(super) functions: Functions,
-    _library: Library,
 }
 
 impl Embree {
@@ -31,7 +32,7 @@ impl Embree {
         let fail = |error: libloading::Error| BenchError::Embree(error.to_string());
         // SAFETY: the library's initialisers are those of Embree and TBB, as published; they need
         // nothing from us.
-        let library = unsafe { Library::new(path) }.map_err(fail)?;
+        let library = ManuallyDrop::new(unsafe { Library::new(path) }.map_err(fail)?);
         /// A function of the library by its name, as of the type of the member it becomes.
         macro_rules! symbol {
             ($name:literal) => {
@@ -61,7 +62,7 @@ impl Embree {
             intersect8: symbol!("rtcIntersect8"),
             occluded8: symbol!("rtcOccluded8"),
         };
-        Ok(Self { inner: Arc::new(Open { functions, _library: library }) })
+        Ok(Self { inner: Arc::new(Open { functions }) })
     }
 
     /// Builds a scene on `threads` threads.
