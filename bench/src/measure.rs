@@ -1,7 +1,8 @@
 //! Building and tracing, with the clock running.
 //!
-//! Time is the processor time of the whole process, which other programs on the machine disturb
-//! least; wall time is taken beside it. Contenders take turns in every round, so that a change of
+//! Rays are timed by the processor time of the thread that traces them, which neither other programs
+//! on the machine disturb nor threads that Embree keeps busy in its wait for work; wall time is
+//! taken beside it. Contenders take turns in every round, so that a change of
 //! the machine's speed meets all of them, and ratios are the median of the rounds' ratios.
 
 use crate::contender::{Answers, Built, Contender, Job, Threads, Trace, full_name};
@@ -13,7 +14,7 @@ use crate::reference::{Truth, Wrong};
 use crate::report::{BuildRow, RayRow};
 use crate::scene::BenchScene;
 use crate::workers::Workers;
-use cpu_time::ProcessTime;
+use cpu_time::{ProcessTime, ThreadTime};
 use std::ops::Range;
 use std::time::{Duration, Instant};
 
@@ -27,7 +28,15 @@ pub(crate) struct Took {
     pub(crate) wall: f64,
 }
 
-/// What it takes to do `work`, and its result.
+/// What it takes to do `work` on this thread, and its result.
+pub(crate) fn timed_here<R>(work: impl FnOnce() -> R) -> (R, Took) {
+    let (cpu, wall) = (ThreadTime::now(), Instant::now());
+    let result = work();
+    let took = Took { cpu: cpu.elapsed().as_secs_f64(), wall: wall.elapsed().as_secs_f64() };
+    (result, took)
+}
+
+/// What it takes to do `work` on all threads of the process, and its result.
 pub(crate) fn timed<R>(work: impl FnOnce() -> R) -> (R, Took) {
     let (cpu, wall) = (ProcessTime::now(), Instant::now());
     let result = work();
@@ -179,7 +188,7 @@ impl<'a> Lane<'a> {
     }
 
     fn run(&mut self) {
-        let ((), took) = timed(|| self.trace.trace(&mut self.answers));
+        let ((), took) = timed_here(|| self.trace.trace(&mut self.answers));
         self.took.push(took);
     }
 

@@ -124,7 +124,7 @@ fn fits(builds: &[BuildRow], sizes: &[(String, usize)]) -> Vec<Fit> {
     let fit = |name: &str| {
         let points = sizes.iter().filter_map(|(scene, size)| {
             let mut rows = builds.iter().filter(|it| it.contender == name && it.scene == *scene);
-            Some((*size as f64, rows.next()?.build_cpu_s))
+            Some((*size as f64, rows.next()?.build_s))
         });
         let points: Vec<(f64, f64)> = points.collect();
         let by = |x: fn(f64) -> f64| exponent(points.iter().map(|&(n, t)| (x(n), t)));
@@ -151,7 +151,7 @@ fn exponent(points: impl Iterator<Item = (f64, f64)>) -> f64 {
 fn text(figures: &Figures, sizes: &[(String, usize)]) -> String {
     let mut text = format!("{}\n\n", figures.machine.text());
     let names = figures.fits.iter().map(|fit| fit.contender.clone());
-    text += "Build on one thread: seconds (processor time), and microseconds a triangle\n";
+    text += "Build on one thread: seconds, and microseconds a triangle\n";
     let mut rows: Vec<Vec<String>> =
         vec![std::iter::once("triangles".to_owned()).chain(names).collect()];
     for (scene, size) in sizes {
@@ -159,7 +159,7 @@ fn text(figures: &Figures, sizes: &[(String, usize)]) -> String {
             let mut builds = figures.builds.iter();
             let row = builds.find(|it| it.contender == fit.contender && it.scene == *scene);
             row.map_or("–".to_owned(), |row| {
-                let seconds = row.build_cpu_s;
+                let seconds = row.build_s;
                 format!("{seconds:.4} {:6.3}", seconds * 1e6 / *size as f64)
             })
         };
@@ -216,12 +216,12 @@ mod tests {
 
     #[test]
     fn only_builds_on_one_thread_count() {
-        let row = |scene: &str, threads, build_cpu_s| BuildRow {
+        let row = |scene: &str, threads, build_s| BuildRow {
             scene: scene.to_owned(),
             contender: "x".to_owned(),
             threads,
-            build_s: build_cpu_s,
-            build_cpu_s,
+            build_s,
+            build_cpu_s: build_s,
             bytes_per_triangle: 1.0,
         };
         let builds = [row("a", 1, 1.0), row("a", 2, 9.0), row("b", 1, 10.0), row("b", 2, 9.0)];

@@ -23,7 +23,7 @@ pub(crate) struct RayRow {
     pub(crate) contender: String,
     /// How many rays were traced: all of the set, or a sample.
     pub(crate) rays: usize,
-    /// Million rays a second of processor time, the median of the rounds.
+    /// Million rays a second of the thread's processor time, the median of the rounds.
     pub(crate) mrays: f64,
     /// The same by wall time.
     pub(crate) mrays_wall: f64,

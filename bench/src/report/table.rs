@@ -22,8 +22,7 @@ pub(super) fn text(report: &Report) -> String {
     text += &columns(&means(report));
     text += "\nWrong answers in all scenes: lost / phantom / far of so many rays\n";
     text += &columns(&wrong(report));
-    text += "\nBuild: seconds on one thread (processor time) | on two (wall time) | bytes a \
-             triangle, all told\n";
+    text += "\nBuild: seconds on one thread | on two (wall time) | bytes a triangle, all told\n";
     text += &columns(&builds(report));
     text
 }
@@ -140,7 +139,7 @@ fn builds(report: &Report) -> Vec<Vec<String>> {
         let (Some(first), second) = (found.next(), found.next()) else { return "–".to_owned() };
         let second = second.map_or("–".to_owned(), |row| seconds(row.build_s));
         let bytes = first.bytes_per_triangle;
-        format!("{} | {second} | {bytes:.0}", seconds(first.build_cpu_s))
+        format!("{} | {second} | {bytes:.0}", seconds(first.build_s))
     };
     let row = |contender: &str| {
         let cells = report.scenes.iter().map(|(scene, _)| cell(contender, scene));
