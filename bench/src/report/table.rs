@@ -168,7 +168,7 @@ mod tests {
     #[test]
     fn tables_hold_ratios_rates_and_wrong_answers() {
         let text = text(&report());
-        for part in ["0.50  1.50  1.00", "2.00  6.00  4.00", "14 / 0 / 0 of 8192", "1.40 | – | 60"]
+        for part in ["0.50  1.50  1.00", "2.00  6.00  4.00", "14 / 0 / 0 of 8192", "1.50 | – | 60"]
         {
             assert!(text.contains(part), "{part} in:\n{text}");
         }
