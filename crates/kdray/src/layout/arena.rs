@@ -27,6 +27,9 @@ impl Link {
     /// The tree's first node.
     pub(crate) const ROOT: Self = Self(0);
 
+    /// Leads nowhere: a leaf without blocks.
+    pub(crate) const END: Self = Self(1 << 31);
+
     /// As it stands in a node.
     #[inline(always)]
     pub(crate) fn from_bits(bits: u32) -> Self {
@@ -35,7 +38,7 @@ impl Link {
 
     /// To stand in a node.
     #[inline(always)]
-    pub(crate) fn to_bits(self) -> u32 {
+    pub(crate) const fn to_bits(self) -> u32 {
         self.0
     }
 
@@ -54,6 +57,12 @@ impl Link {
     #[inline(always)]
     pub(crate) fn block_count(self) -> usize {
         (self.0 >> 28 & 7) as usize
+    }
+
+    /// The leaf without its first block.
+    #[inline(always)]
+    pub(crate) fn rest(self) -> Self {
+        Self(self.0.wrapping_sub(1 << 28).wrapping_add(BLOCK_LINES as u32))
     }
 
     #[inline(always)]

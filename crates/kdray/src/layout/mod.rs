@@ -12,6 +12,6 @@ mod wide;
 
 pub(crate) use arena::Link;
 pub(crate) use block::TriangleBlock;
-pub(crate) use node::{PlaneRows, WideNode};
+pub(crate) use node::WideNode;
 pub(crate) use wide::STACK_SIZE;
 pub use wide::WideTree;

@@ -2,48 +2,20 @@
 
 use super::Link;
 use crate::geometry::Aabb;
-use bytemuck::{Pod, Zeroable, must_cast_ref};
+use bytemuck::{Pod, Zeroable};
 
 /// Eight children in 256 bytes: their boxes, where they lie, and in which order a ray meets them.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C, align(64))]
 pub(crate) struct WideNode {
-    /// The boxes' lower planes on x, y, z, then the upper ones; lane i is child i. A place without
-    /// child has a box that no ray hits.
-    planes: [[f32; 8]; 6],
+    /// For each axis the boxes' lower planes, then the upper ones; lane i is child i. The planes of a
+    /// place without child are all infinitely far up, where no ray gets.
+    planes: [[[f32; 8]; 2]; 3],
     links: [u32; 8],
     /// For each octant of directions (bit k: component k is negative) the places of the children,
     /// farthest first, four bits each from the lowest. A kd-tree's cells are disjoint, so the order
     /// is the same for all rays of an octant.
     order: [u32; 8],
-}
-
-/// Which planes of the boxes a ray meets first and last, on each axis: rows of a node.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct PlaneRows {
-    pub(crate) near: [usize; 3],
-    pub(crate) far: [usize; 3],
-}
-
-impl PlaneRows {
-    const BY_OCTANT: [Self; 8] = {
-        let mut all = [Self { near: [0, 1, 2], far: [3, 4, 5] }; 8];
-        let mut i = 0;
-        while i < 24 {
-            let (octant, axis) = (i / 3, i % 3);
-            if octant >> axis & 1 == 1 {
-                (all[octant].near[axis], all[octant].far[axis]) = (axis + 3, axis);
-            }
-            i += 1;
-        }
-        all
-    };
-
-    /// Those of an octant.
-    #[inline(always)]
-    pub(crate) fn of_octant(octant: usize) -> &'static Self {
-        &Self::BY_OCTANT[octant & 7]
-    }
 }
 
 impl WideNode {
@@ -53,8 +25,7 @@ impl WideNode {
     /// A node without children; the order is that of the places.
     pub(super) const EMPTY: Self = Self {
         planes: {
-            let (none, inf) = ([f32::INFINITY; 8], [f32::NEG_INFINITY; 8]);
-            [none, none, none, inf, inf, inf]
+            [[[f32::INFINITY; 8]; 2]; 3]
         },
         links: [0; 8],
         order: [0x7654_3210; 8],
@@ -62,8 +33,8 @@ impl WideNode {
 
     pub(super) fn set_child(&mut self, place: usize, bounds: &Aabb<3>, link: Link) {
         for axis in 0..3 {
-            self.planes[axis][place] = bounds.min[axis];
-            self.planes[axis + 3][place] = bounds.max[axis];
+            self.planes[axis][0][place] = bounds.min[axis];
+            self.planes[axis][1][place] = bounds.max[axis];
         }
         self.links[place] = link.to_bits();
     }
@@ -76,12 +47,12 @@ impl WideNode {
             all.enumerate().fold(0, |order, (i, place)| order | u32::from(place) << (4 * i));
     }
 
-    /// A row of planes.
+    /// The planes on an axis that a ray meets first and last; `is_negative`, zero or one, tells
+    /// whether its direction is.
     #[inline(always)]
-    pub(crate) fn planes(&self, row: usize) -> &[f32; 8] {
-        // Eight rows, so that the mask spares the check of the index.
-        let rows: &[[f32; 8]; 8] = must_cast_ref(self);
-        &rows[row & 7]
+    pub(crate) fn near_and_far(&self, axis: usize, is_negative: usize) -> [&[f32; 8]; 2] {
+        let planes = &self.planes[axis];
+        [&planes[is_negative & 1], &planes[(is_negative & 1) ^ 1]]
     }
 
     #[inline(always)]

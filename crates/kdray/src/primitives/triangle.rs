@@ -34,7 +34,7 @@ const BARYCENTRIC_ERROR: f64 = 1.0 / (1u64 << 31) as f64;
 /// numbers, and t errs by a relative 2^-39 at most, usually by 2^-50. Its sign is exact, down to
 /// the smallest f64; beyond the largest f64 there is no hit. u and v err by 2^-30 at most. A
 /// triangle without area or seen edge-on is not hit.
-#[inline]
+#[inline(always)]
 pub fn intersect_triangle(
     corners: &[[f32; 3]; 3],
     id: u32,

@@ -81,8 +81,8 @@ impl Scene {
     ) {
         let one = |ray: &Ray| self.closest_hit(ray);
         match self.arithmetic {
-            Arithmetic::Exact => self.each::<Closest<true>>(rays, one, found),
-            Arithmetic::Float => self.each::<Closest<false>>(rays, one, found),
+            Arithmetic::Exact => self.each::<Closest<'_, true>>(rays, one, found),
+            Arithmetic::Float => self.each::<Closest<'_, false>>(rays, one, found),
         }
     }
 
@@ -101,8 +101,8 @@ impl Scene {
     }
 
     /// Searches along each of `rays`, by the kernel that suits the tree's size.
-    fn each<Q: Search>(
-        &self,
+    fn each<'a, Q: Search<'a>>(
+        &'a self,
         rays: impl IntoIterator<Item = Ray>,
         one: impl Fn(&Ray) -> Q::Answer,
         mut found: impl FnMut(usize, Q::Answer),

@@ -7,7 +7,7 @@ use crate::layout::{TriangleBlock, WideTree};
 use crate::primitives::{Hit, TriangleMesh};
 use crate::simd::InstructionSet;
 use crate::traverse::AllHits;
-use crate::traverse::wide::{Any, Closest, NoAim, Single};
+use crate::traverse::wide::{Any, Closest, NoAim, search_along};
 use crate::tree::KdTree;
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -124,13 +124,14 @@ impl Scene {
     #[must_use]
     pub fn closest_hit(&self, ray: &Ray) -> Option<Hit> {
         let Some(tree) = &self.trees.wide else { return self.trees.shapes.closest_hit(ray) };
+        let mut hit = None;
+        let set = self.instructions;
         let found = match self.arithmetic {
-            Arithmetic::Exact => self.instructions.run(Single::<Closest<true>>::new(tree, ray)),
-            Arithmetic::Float => self.instructions.run(Single::<Closest<false>>::new(tree, ray)),
+            Arithmetic::Exact => search_along::<Closest<'_, true>>(tree, ray, set, &mut hit),
+            Arithmetic::Float => search_along::<Closest<'_, false>>(tree, ray, set, &mut hit),
         };
         match found {
-            Ok(hit) => hit,
-            Err(NoAim::Missed) => None,
+            Ok(()) | Err(NoAim::Missed) => hit,
             Err(NoAim::OutOfRange) => self.trees.shapes.closest_hit(ray),
         }
     }
@@ -139,13 +140,14 @@ impl Scene {
     #[must_use]
     pub fn any_hit(&self, ray: &Ray) -> bool {
         let Some(tree) = &self.trees.wide else { return self.trees.shapes.any_hit(ray) };
+        let mut is_hit = false;
+        let set = self.instructions;
         let found = match self.arithmetic {
-            Arithmetic::Exact => self.instructions.run(Single::<Any<true>>::new(tree, ray)),
-            Arithmetic::Float => self.instructions.run(Single::<Any<false>>::new(tree, ray)),
+            Arithmetic::Exact => search_along::<Any<true>>(tree, ray, set, &mut is_hit),
+            Arithmetic::Float => search_along::<Any<false>>(tree, ray, set, &mut is_hit),
         };
         match found {
-            Ok(is_hit) => is_hit,
-            Err(NoAim::Missed) => false,
+            Ok(()) | Err(NoAim::Missed) => is_hit,
             Err(NoAim::OutOfRange) => self.trees.shapes.any_hit(ray),
         }
     }

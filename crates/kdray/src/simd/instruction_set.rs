@@ -86,7 +86,7 @@ impl InstructionSet {
     }
 
     /// Runs `kernel` compiled for this set.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn run<K: Kernel>(self, kernel: K) -> K::Output {
         match self.0 {
             Token::Portable(simd) => compiled_for(simd, kernel),

@@ -5,9 +5,8 @@
 //! and at leaves. That costs instructions, so it pays on large trees.
 
 use super::aim::{Aim, NoAim};
-use super::lanes::RayLanes;
 use super::search::Search;
-use super::slab::nearest_child;
+use super::slab::Slabs;
 use super::stack::Stack;
 use crate::geometry::Ray;
 use crate::layout::{Link, WideTree};
@@ -32,11 +31,11 @@ struct Traveller<Q> {
     aim: Aim,
     search: Q,
     stack: Stack,
-    /// Where it goes next.
+    /// Where it goes next: a node, the blocks of a leaf that are left, or the end.
     next: Link,
 }
 
-/// Which travellers wait for the same kind of step.
+/// Travellers that wait for the same kind of step.
 #[derive(Default)]
 struct Queue {
     len: usize,
@@ -57,32 +56,9 @@ impl Queue {
         self.len = self.len.checked_sub(1)?;
         Some(self.slots[self.len % UNDER_WAY])
     }
-
-    /// Takes all.
-    #[inline(always)]
-    fn take(&mut self) -> impl Iterator<Item = u8> + use<> {
-        let Self { len, slots } = std::mem::take(self);
-        slots.into_iter().take(len)
-    }
 }
 
-/// What the travellers wait for.
-struct Queues {
-    nodes: Queue,
-    leaves: Queue,
-    idle: Queue,
-}
-
-impl Queues {
-    #[inline(always)]
-    fn push(&mut self, slot: u8, next: Option<Link>) {
-        let is_leaf = next.is_some_and(Link::is_leaf);
-        self.nodes.push_if(next.is_some() && !is_leaf, slot);
-        self.leaves.push_if(is_leaf, slot);
-    }
-}
-
-impl<'a, Q: Search, R, A, F> Batch<'a, Q, R, A, F>
+impl<'a, Q: Search<'a>, R, A, F> Batch<'a, Q, R, A, F>
 where
     R: Iterator<Item = Ray<3>>,
     A: Fn(&Ray<3>) -> Q::Answer,
@@ -96,7 +72,7 @@ where
     }
 }
 
-impl<Q: Search, R, A, F> Kernel for Batch<'_, Q, R, A, F>
+impl<'a, Q: Search<'a>, R, A, F> Kernel for Batch<'a, Q, R, A, F>
 where
     R: Iterator<Item = Ray<3>>,
     A: Fn(&Ray<3>) -> Q::Answer,
@@ -109,85 +85,89 @@ where
         let Self { tree, rays, scalar, mut found, .. } = self;
         let mut rays = rays.enumerate();
         let mut travellers: [Traveller<Q>; UNDER_WAY] = std::array::from_fn(|_| Traveller::idle());
-        let all = Queue { len: UNDER_WAY, slots: std::array::from_fn(|slot| slot as u8) };
-        let mut queues = Queues { nodes: Queue::default(), leaves: Queue::default(), idle: all };
+        let (mut nodes, mut leaves) = (Queue::default(), Queue::default());
+        let mut idle = Queue { len: UNDER_WAY, slots: std::array::from_fn(|slot| slot as u8) };
         loop {
-            while let Some(slot) = queues.idle.pop() {
+            while let Some(slot) = idle.pop() {
                 let Some((index, ray)) = rays.next() else { break };
                 let traveller = &mut travellers[usize::from(slot) % UNDER_WAY];
-                let started = traveller.start(tree, index, &ray);
-                queues.nodes.push_if(started.is_ok(), slot);
-                queues.idle.push_if(started.is_err(), slot);
+                let started = traveller.start(simd, tree, index, &ray);
+                nodes.push_if(started.is_ok(), slot);
+                idle.push_if(started.is_err(), slot);
                 match started {
                     Ok(()) => {}
                     Err(NoAim::Missed) => found(index, Q::Answer::default()),
                     Err(NoAim::OutOfRange) => found(index, scalar(&ray)),
                 }
             }
-            if queues.nodes.len + queues.leaves.len == 0 {
+            if nodes.len + leaves.len == 0 {
                 return;
             }
-            for slot in queues.nodes.take() {
+            // Queues are refilled from the front while they are read, which never catches up.
+            for i in 0..std::mem::take(&mut nodes.len) {
+                let slot = nodes.slots[i % UNDER_WAY];
                 let traveller = &mut travellers[usize::from(slot) % UNDER_WAY];
-                let next = traveller.pass_node(simd, tree);
-                queues.push(slot, next);
-                if next.is_none() {
-                    found(traveller.index, traveller.search.answer());
-                    queues.idle.push_if(true, slot);
-                }
+                traveller.pass_node(simd, tree);
+                let is_leaf = traveller.next.is_leaf();
+                nodes.push_if(!is_leaf, slot);
+                leaves.push_if(is_leaf, slot);
             }
-            for slot in queues.leaves.take() {
+            for i in 0..std::mem::take(&mut leaves.len) {
+                let slot = leaves.slots[i % UNDER_WAY];
                 let traveller = &mut travellers[usize::from(slot) % UNDER_WAY];
-                let next = traveller.visit_leaf(simd, tree);
-                queues.push(slot, next);
-                if next.is_none() {
-                    found(traveller.index, traveller.search.answer());
-                    queues.idle.push_if(true, slot);
+                if traveller.next == Link::END || traveller.visit_block(simd, tree) {
+                    let mut answer = Q::Answer::default();
+                    traveller.search.answer(&mut answer);
+                    found(traveller.index, answer);
+                    idle.push_if(true, slot);
+                    continue;
                 }
+                let is_leaf = traveller.next.is_leaf();
+                nodes.push_if(!is_leaf, slot);
+                leaves.push_if(is_leaf, slot);
             }
         }
     }
 }
 
-impl<Q: Search> Traveller<Q> {
+impl<'a, Q: Search<'a>> Traveller<Q> {
     fn idle() -> Self {
         let ray = Ray { origin: [0.0; 3], direction: [0.0; 3], interval: crate::Interval::FORWARD };
-        let (aim, stack) = (Aim::NONE, Stack::new());
-        Self { index: 0, search: Q::new(&ray, &aim), aim, stack, next: Link::ROOT }
+        let (aim, stack) = (Aim::NONE, Stack::EMPTY);
+        Self { index: 0, search: Q::new(&ray), aim, stack, next: Link::ROOT }
     }
 
     #[inline(always)]
-    fn start(&mut self, tree: &WideTree, index: usize, ray: &Ray<3>) -> Result<(), NoAim> {
-        self.aim.set(tree, ray)?;
-        self.search = Q::new(ray, &self.aim);
+    fn start<S: Lanes>(
+        &mut self,
+        simd: S,
+        tree: &WideTree,
+        index: usize,
+        ray: &Ray<3>,
+    ) -> Result<(), NoAim> {
+        self.aim.set(simd, tree, ray)?;
+        self.search = Q::new(ray);
         self.stack.clear();
         (self.index, self.next) = (index, Link::ROOT);
         Ok(())
     }
 
-    /// Passes the next node, and says where to go then.
+    /// Passes the next node.
     #[inline(always)]
-    fn pass_node<S: Lanes>(&mut self, simd: S, tree: &WideTree) -> Option<Link> {
-        let lanes = RayLanes::new(simd, &self.aim, self.search.t_far());
-        let node = tree.node(self.next);
-        let next = nearest_child(simd, node, &self.aim, &lanes, &mut self.stack)
-            .or_else(|| self.stack.pop(self.search.t_far()));
-        self.next = next.unwrap_or(self.next);
-        next
+    fn pass_node<S: Lanes>(&mut self, simd: S, tree: &WideTree) {
+        let slabs = Slabs::new(simd, &self.aim);
+        let met = slabs.meet(simd, tree.node(self.next));
+        self.next = self.stack.push_and_pop(&met, self.aim.t_far);
     }
 
-    /// Visits the next leaf, and says where to go then.
+    /// Visits the next block of a leaf; true if the search is over.
     #[inline(always)]
-    fn visit_leaf<S: Lanes>(&mut self, simd: S, tree: &WideTree) -> Option<Link> {
-        let mut lanes = RayLanes::new(simd, &self.aim, self.search.t_far());
-        for index in 0..self.next.block_count() {
-            let block = tree.block(self.next, index);
-            if self.search.visit(simd, block, &self.aim, &mut lanes) {
-                return None;
-            }
+    fn visit_block<S: Lanes>(&mut self, simd: S, tree: &'a WideTree) -> bool {
+        if self.search.visit(simd, tree.block(self.next, 0), &mut self.aim) {
+            return true;
         }
-        let next = self.stack.pop(self.search.t_far());
-        self.next = next.unwrap_or(self.next);
-        next
+        let rest = self.next.rest();
+        self.next = if rest.block_count() > 0 { rest } else { self.stack.pop(self.aim.t_far) };
+        false
     }
 }

@@ -1,7 +1,7 @@
 //! The triangle test on eight triangles at once.
 
 use super::aim::Aim;
-use super::lanes::{RayLanes, cross, difference, dot, largest};
+use super::vector::{Vector, cross, difference, dot, largest, splat};
 use crate::layout::TriangleBlock;
 use crate::simd::Lanes;
 use fearless_simd::prelude::*;
@@ -34,6 +34,18 @@ pub(super) struct BlockTest<S: Lanes> {
     /// How far T − t · den may be off for t = t_near, and for t = t_far.
     near_error: f32x8<S>,
     far_error: f32x8<S>,
+    /// How far it may be off for t = 0, and how much more a unit of t.
+    origin_error: f32x8<S>,
+    t_error: f32x8<S>,
+}
+
+/// Bounds for where the ray meets triangles.
+#[derive(Clone, Copy)]
+pub(super) struct Depths<S: Lanes> {
+    /// The true t is above this and below `high` where the ray surely hits, within its interval and
+    /// at a t above zero. Elsewhere this is minus infinity and `high` is infinity.
+    pub(super) low: f32x8<S>,
+    pub(super) high: f32x8<S>,
 }
 
 impl<S: Lanes> BlockTest<S> {
@@ -43,43 +55,70 @@ impl<S: Lanes> BlockTest<S> {
         simd: S,
         block: &TriangleBlock,
         aim: &Aim,
-        ray: &RayLanes<S>,
     ) -> Self {
-        let corner =
-            |i: usize| [0, 1, 2].map(|axis| f32x8::load_array_ref(simd, block.corner(i, axis)));
-        let a = corner(0);
-        let (e1, e2) = (difference(corner(1), a), difference(corner(2), a));
-        let s = difference(ray.origin, a);
-        let p = cross(ray.direction, e2);
+        let (a, b, c) = (corner(simd, block, 0), corner(simd, block, 1), corner(simd, block, 2));
+        let (e1, e2) = (difference(b, a), difference(c, a));
+        let (origin, direction) = (splat(simd, &aim.origin), splat(simd, &aim.direction));
+        let s = difference(origin, a);
+        let p = cross(direction, e2);
         let q = cross(s, e1);
-        let (den, u, v, volume) = (dot(p, e1), dot(p, s), dot(q, ray.direction), dot(q, e2));
+        let (den, u, v, volume) = (dot(p, e1), dot(p, s), dot(q, direction), dot(q, e2));
         let w = den - u - v;
-        let [edge_error, near_error, far_error] = if EXACT {
-            error_bounds(simd, aim, ray, [largest(e1).max(largest(e2)), largest(s)])
+        let [edge_error, near_error, far_error, origin_error, t_error] = if EXACT {
+            error_bounds(simd, aim, [largest(e1).max(largest(e2)), largest(s)])
         } else {
-            [f32x8::splat(simd, 0.0); 3]
+            [f32x8::splat(simd, 0.0); 5]
         };
         let signed = |x: f32x8<S>| flip_sign(x, den);
         let (u, v, w, volume) = (signed(u), signed(v), signed(w), signed(volume));
-        Self { u, v, w, volume, den: den.abs(), facing: den, edge_error, near_error, far_error }
+        Self {
+            u,
+            v,
+            w,
+            volume,
+            den: den.abs(),
+            facing: den,
+            edge_error,
+            near_error,
+            far_error,
+            origin_error,
+            t_error,
+        }
     }
 
     /// The lanes that may be hit within the ray's interval.
     #[inline(always)]
-    pub(super) fn candidates(&self, ray: &RayLanes<S>) -> mask32x8<S> {
+    pub(super) fn candidates(&self, aim: &Aim) -> mask32x8<S> {
         let inside = (self.u.min(self.v).min(self.w) + self.edge_error).simd_ge(0.0);
-        let behind = self.den.mul_sub(ray.t_near, self.near_error).simd_le(self.volume);
-        let before = self.den.mul_add(ray.t_far, self.far_error).simd_ge(self.volume);
+        let behind = self.den.mul_sub(aim.t_near, self.near_error).simd_le(self.volume);
+        let before = self.den.mul_add(aim.t_far, self.far_error).simd_ge(self.volume);
         inside & behind & before
     }
 
     /// The lanes that are surely hit within the ray's interval.
     #[inline(always)]
-    pub(super) fn sure(&self, ray: &RayLanes<S>) -> mask32x8<S> {
+    pub(super) fn sure(&self, aim: &Aim) -> mask32x8<S> {
         let inside = (self.u.min(self.v).min(self.w) - self.edge_error).simd_gt(0.0);
-        let behind = self.den.mul_add(ray.t_near, self.near_error).simd_lt(self.volume);
-        let before = self.den.mul_sub(ray.t_far, self.far_error).simd_gt(self.volume);
+        let behind = self.den.mul_add(aim.t_near, self.near_error).simd_lt(self.volume);
+        let before = self.den.mul_sub(aim.t_far, self.far_error).simd_gt(self.volume);
         inside & behind & before
+    }
+
+    /// Bounds for t. From |T − t·den| ≤ e0 + e1·t for t ≥ 0 follows
+    /// (T − e0) / (den + e1) ≤ t ≤ (T + e0) / (den − e1); a relative 2^-21 covers the rounding.
+    #[inline(always)]
+    pub(super) fn depths(&self, simd: S, aim: &Aim) -> Depths<S> {
+        const ROOM: f32 = 1.0 / (1 << 21) as f32;
+        let all = |x: f32| f32x8::splat(simd, x);
+        let ahead = self.volume.simd_gt(self.origin_error);
+        let steep = self.den.simd_gt(self.t_error + self.t_error);
+        let sure = self.sure(aim) & ahead & steep;
+        let low = (self.volume - self.origin_error) / (self.den + self.t_error);
+        let high = (self.volume + self.origin_error) / (self.den - self.t_error);
+        Depths {
+            low: sure.select(low * (1.0 - ROOM), all(f32::NEG_INFINITY)),
+            high: sure.select(high * (1.0 + ROOM), all(f32::INFINITY)),
+        }
     }
 }
 
@@ -98,16 +137,24 @@ impl<S: Lanes> BlockTest<S> {
 fn error_bounds<S: Lanes>(
     simd: S,
     aim: &Aim,
-    ray: &RayLanes<S>,
     [edge, distance]: [f32x8<S>; 2],
-) -> [f32x8<S>; 3] {
+) -> [f32x8<S>; 5] {
     let all = |x: f32| f32x8::splat(simd, x);
     let distance = distance.max(all(aim.least_distance));
     let edge_error = (edge * (edge + distance)).mul_add(all(aim.edge_error), all(UNDERFLOW));
     let volume_error = distance * all(VOLUME_ERROR);
     let edge_squared = edge * edge;
     let t_error = |t_error: f32x8<S>| edge_squared.mul_add(volume_error + t_error, all(UNDERFLOW));
-    [edge_error, t_error(ray.near_error), t_error(ray.far_error)]
+    let [near_error, far_error] = [t_error(all(aim.near_error)), t_error(all(aim.far_error))];
+    let origin_error = t_error(all(aim.error_at(0.0)));
+    [edge_error, near_error, far_error, origin_error, edge_squared * all(aim.t_error)]
+}
+
+/// A corner of each triangle.
+#[inline(always)]
+fn corner<S: Lanes>(simd: S, block: &TriangleBlock, place: usize) -> Vector<S> {
+    let load = |axis| f32x8::load_array_ref(simd, block.corner(place, axis));
+    [load(0), load(1), load(2)]
 }
 
 /// x with its sign flipped where `sign` is negative.

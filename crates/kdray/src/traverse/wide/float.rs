@@ -2,7 +2,6 @@
 
 use super::aim::Aim;
 use super::block::BlockTest;
-use super::lanes::RayLanes;
 use crate::layout::TriangleBlock;
 use crate::primitives::{Hit, Side};
 use crate::simd::Lanes;
@@ -23,10 +22,9 @@ impl FloatHit {
         simd: S,
         block: &TriangleBlock,
         aim: &Aim,
-        ray: &RayLanes<S>,
     ) -> Option<Self> {
-        let test = BlockTest::new::<false>(simd, block, aim, ray);
-        let hit = test.candidates(ray) & test.den.simd_gt(0.0);
+        let test = BlockTest::new::<false>(simd, block, aim);
+        let hit = test.candidates(aim) & test.den.simd_gt(0.0);
         if hit.to_bitmask() == 0 {
             return None;
         }

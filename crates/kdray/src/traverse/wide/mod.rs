@@ -9,13 +9,13 @@ mod aim;
 mod batch;
 mod block;
 mod float;
-mod lanes;
 mod search;
 mod single;
 mod slab;
 mod stack;
+mod vector;
 
 pub(crate) use aim::NoAim;
 pub(crate) use batch::Batch;
 pub(crate) use search::{Any, Closest, Search};
-pub(crate) use single::Single;
+pub(crate) use single::search_along;

@@ -1,55 +1,71 @@
 //! One ray through the wide tree.
 
 use super::aim::{Aim, NoAim};
-use super::lanes::RayLanes;
 use super::search::Search;
-use super::slab::nearest_child;
+use super::slab::Slabs;
 use super::stack::Stack;
 use crate::geometry::Ray;
 use crate::layout::{Link, WideTree};
-use crate::simd::{Kernel, Lanes};
-use std::marker::PhantomData;
+use crate::simd::{InstructionSet, Kernel, Lanes};
 
 /// A search along one ray.
-pub(crate) struct Single<'a, Q> {
+struct Single<'a, 's, Q: Search<'a>> {
     tree: &'a WideTree,
-    ray: &'a Ray<3>,
-    search: PhantomData<Q>,
+    ray: &'s Ray<3>,
+    stack: &'s mut Stack,
+    /// In the caller's place, because to copy it from hand to hand takes time.
+    answer: &'s mut Q::Answer,
 }
 
-impl<'a, Q: Search> Single<'a, Q> {
-    #[inline(always)]
-    pub(crate) fn new(tree: &'a WideTree, ray: &'a Ray<3>) -> Self {
-        Self { tree, ray, search: PhantomData }
-    }
+/// Searches along `ray`; sets `answer` if something is found.
+#[inline(always)]
+pub(crate) fn search_along<'a, Q: Search<'a>>(
+    tree: &'a WideTree,
+    ray: &Ray<3>,
+    instructions: InstructionSet,
+    answer: &mut Q::Answer,
+) -> Result<(), NoAim> {
+    Stack::of_thread(|stack| instructions.run(Single::<Q> { tree, ray, stack, answer }))
 }
 
-impl<Q: Search> Kernel for Single<'_, Q> {
-    type Output = Result<Q::Answer, NoAim>;
+impl<'a, Q: Search<'a>> Kernel for Single<'a, '_, Q> {
+    type Output = Result<(), NoAim>;
 
     #[inline(always)]
     fn run<S: Lanes>(self, simd: S) -> Self::Output {
-        let Self { tree, ray, .. } = self;
+        let Self { tree, ray, stack, answer } = self;
         let mut aim = Aim::NONE;
-        aim.set(tree, ray)?;
-        let aim = &aim;
-        let mut lanes = RayLanes::new(simd, aim, aim.t_far);
-        let mut search = Q::new(ray, aim);
-        let mut stack = Stack::new();
-        let mut next = Some(Link::ROOT);
-        while let Some(link) = next {
-            if link.is_leaf() {
-                for index in 0..link.block_count() {
-                    if search.visit(simd, tree.block(link, index), aim, &mut lanes) {
-                        return Ok(search.answer());
-                    }
-                }
-                next = stack.pop(search.t_far());
-            } else {
-                next = nearest_child(simd, tree.node(link), aim, &lanes, &mut stack)
-                    .or_else(|| stack.pop(search.t_far()));
+        aim.set(simd, tree, ray)?;
+        let mut slabs = Slabs::new(simd, &aim);
+        let mut search = Q::new(ray);
+        stack.clear();
+        let mut next = Link::ROOT;
+        loop {
+            if !next.is_leaf() {
+                // A branch that is foretold rightly lets the next node be loaded before this one's
+                // boxes are tested.
+                let met = slabs.meet(simd, tree.node(next));
+                next = if met.count == 0 {
+                    stack.pop(aim.t_far)
+                } else {
+                    stack.push_but_nearest(&met);
+                    met.nearest
+                };
+                continue;
             }
+            if next == Link::END {
+                break;
+            }
+            for index in 0..next.block_count() {
+                if search.visit(simd, tree.block(next, index), &mut aim) {
+                    search.answer(answer);
+                    return Ok(());
+                }
+            }
+            slabs.end(simd, aim.t_far);
+            next = stack.pop(aim.t_far);
         }
-        Ok(search.answer())
+        search.answer(answer);
+        Ok(())
     }
 }

@@ -1,38 +1,71 @@
 //! The slab test on eight boxes at once (S4), and the order of those that are met.
 
 use super::aim::Aim;
-use super::lanes::RayLanes;
-use super::stack::Stack;
-use crate::layout::{Link, PlaneRows, WideNode};
+use super::vector::{Vector, splat};
+use crate::layout::{Link, WideNode};
 use crate::simd::{Lanes, Lists};
 use fearless_simd::prelude::*;
 use fearless_simd::{f32x8, u32x8};
 
-/// The nearest of the children whose boxes the ray meets; puts the others onto the stack, the
-/// farthest first.
-#[inline(always)]
-pub(super) fn nearest_child<S: Lanes>(
-    simd: S,
-    node: &WideNode,
-    aim: &Aim,
-    ray: &RayLanes<S>,
-    stack: &mut Stack,
-) -> Option<Link> {
-    // t = plane / d − o / d
-    let t = |row: usize, axis: usize| {
-        let planes = f32x8::load_array_ref(simd, node.planes(row));
-        planes.mul_sub(ray.inverse[axis], ray.start[axis])
-    };
-    let PlaneRows { near, far } = PlaneRows::of_octant(aim.octant);
-    let t_near = t(near[0], 0).max(t(near[1], 1)).max(t(near[2], 2).max(ray.t_near));
-    let t_far = t(far[0], 0).min(t(far[1], 1)).min(t(far[2], 2).min(ray.t_far));
-    let met = t_near.simd_le(t_far);
-    let links = u32x8::load_array_ref(simd, node.links());
-    let order = node.order(aim.octant);
-    let (met, lists) = simd.pack(met, order, Lists { t: t_near, links });
-    // The nearest is last. It is looked up in the node, because the way by the stack takes longer.
-    let last = met.checked_ilog2()?;
-    stack.push(met.count_ones() as usize - 1, &lists);
-    let place = order >> (4 * last) & 7;
-    Some(Link::from_bits(node.links()[place as usize]))
+/// What the slab test needs of a ray, in all lanes.
+#[derive(Clone, Copy)]
+pub(super) struct Slabs<S: Lanes> {
+    inverse: Vector<S>,
+    start: Vector<S>,
+    t_near: f32x8<S>,
+    t_far: f32x8<S>,
+    octant: usize,
+}
+
+/// The children of a node whose boxes a ray meets.
+pub(super) struct Met<S: Lanes> {
+    pub(super) count: usize,
+    /// The first that the ray meets; of none, anything.
+    pub(super) nearest: Link,
+    /// All, the farthest first, with where the ray enters them.
+    pub(super) lists: Lists<S>,
+}
+
+impl<S: Lanes> Slabs<S> {
+    #[inline(always)]
+    pub(super) fn new(simd: S, aim: &Aim) -> Self {
+        Self {
+            inverse: splat(simd, &aim.inverse),
+            start: splat(simd, &aim.start),
+            t_near: f32x8::splat(simd, aim.t_near),
+            t_far: f32x8::splat(simd, aim.t_far),
+            octant: aim.octant,
+        }
+    }
+
+    /// Ends the ray at `t_far`.
+    #[inline(always)]
+    pub(super) fn end(&mut self, simd: S, t_far: f32) {
+        self.t_far = f32x8::splat(simd, t_far);
+    }
+
+    /// Where the ray meets the planes on an axis: m and M.
+    #[inline(always)]
+    fn axis(&self, simd: S, node: &WideNode, axis: usize) -> (f32x8<S>, f32x8<S>) {
+        let [near, far] = node.near_and_far(axis, self.octant >> axis);
+        let (near, far) = (f32x8::load_array_ref(simd, near), f32x8::load_array_ref(simd, far));
+        // t = plane / d − o / d
+        let (inverse, start) = (self.inverse[axis], self.start[axis]);
+        (near.mul_sub(inverse, start), far.mul_sub(inverse, start))
+    }
+
+    /// The children of a node whose boxes the ray meets.
+    #[inline(always)]
+    pub(super) fn meet(&self, simd: S, node: &WideNode) -> Met<S> {
+        let (x, y, z) = (self.axis(simd, node, 0), self.axis(simd, node, 1), self.axis(simd, node, 2));
+        let t_near = x.0.max(y.0).max(z.0.max(self.t_near));
+        let t_far = x.1.min(y.1).min(z.1.min(self.t_far));
+        let links = u32x8::load_array_ref(simd, node.links());
+        let order = node.order(self.octant);
+        let (met, lists) = simd.pack(t_near.simd_le(t_far), order, Lists { t: t_near, links });
+        // The nearest is last. It is looked up in the node: the way by the lists is longer.
+        let place = order.rotate_left(met.leading_zeros() * 4 + 4) & 7;
+        let nearest = Link::from_bits(node.links()[place as usize]);
+        Met { count: met.count_ones() as usize, nearest, lists }
+    }
 }

@@ -1,40 +1,67 @@
 //! What a ray has yet to visit.
 
+use super::slab::Met;
 use crate::layout::{Link, STACK_SIZE};
-use crate::simd::{Lanes, Lists};
-use arrayvec::ArrayVec;
+use crate::simd::Lanes;
 use fearless_simd::prelude::*;
+use std::cell::RefCell;
+use std::hint::select_unpredictable;
 
-/// Nodes and leaves that a ray has yet to visit, with where it enters their boxes.
+/// Nodes and leaves that a ray has yet to visit, with where it enters their boxes; the next is on
+/// top. At the bottom lies [`Link::END`].
 pub(super) struct Stack {
-    t: ArrayVec<f32, STACK_SIZE>,
-    links: ArrayVec<u32, STACK_SIZE>,
+    t: [f32; STACK_SIZE],
+    links: [u32; STACK_SIZE],
+    len: usize,
 }
 
 impl Stack {
-    /// Nothing.
+    /// Nothing but the end.
+    pub(super) const EMPTY: Self = {
+        let mut stack = Self { t: [0.0; STACK_SIZE], links: [0; STACK_SIZE], len: 1 };
+        (stack.t[0], stack.links[0]) = (f32::NEG_INFINITY, Link::END.to_bits());
+        stack
+    };
+
+    /// Lends this thread's stack: to fill a new one with zeros takes longer than many rays.
     #[inline(always)]
-    pub(super) fn new() -> Self {
-        Self { t: ArrayVec::new(), links: ArrayVec::new() }
+    pub(super) fn of_thread<R>(work: impl FnOnce(&mut Self) -> R) -> R {
+        thread_local!(static STACK: RefCell<Stack> = const { RefCell::new(Stack::EMPTY) });
+        STACK.with_borrow_mut(work)
     }
 
     /// Forgets all.
     #[inline(always)]
     pub(super) fn clear(&mut self) {
-        self.t.clear();
-        self.links.clear();
+        self.len = 1;
     }
 
-    /// Adds the first `count` of eight, of which the last is visited next. There is always room
-    /// for all eight: the layout sees to it.
+    /// The next, with where the ray enters it.
     #[inline(always)]
-    pub(super) fn push<S: Lanes>(&mut self, count: usize, lists: &Lists<S>) {
-        let len = self.t.len();
-        let room = self.t.try_extend_from_slice(lists.t.as_array()).is_ok()
-            && self.links.try_extend_from_slice(lists.links.as_array()).is_ok();
-        debug_assert!(room, "the layout keeps stacks within {STACK_SIZE}");
-        self.t.truncate(len + count);
-        self.links.truncate(len + count);
+    fn top(&self) -> (f32, Link) {
+        let place = self.len.wrapping_sub(1) % STACK_SIZE;
+        (self.t[place], Link::from_bits(self.links[place]))
+    }
+
+    /// Adds the children of a node but the nearest. There is always room for all eight: the layout
+    /// sees to it.
+    #[inline(always)]
+    pub(super) fn push_but_nearest<S: Lanes>(&mut self, met: &Met<S>) {
+        let room = self.len..self.len + 8;
+        self.t[room.clone()].copy_from_slice(met.lists.t.as_array());
+        self.links[room].copy_from_slice(met.lists.links.as_array());
+        self.len = self.len + met.count - 1;
+    }
+
+    /// Adds the children of a node, and takes the next that begins before `t_far`. Without a branch
+    /// on whether there are children, which could not be foretold.
+    #[inline(always)]
+    pub(super) fn push_and_pop<S: Lanes>(&mut self, met: &Met<S>, t_far: f32) -> Link {
+        let (t, waiting) = self.top();
+        self.push_but_nearest(met);
+        let t = select_unpredictable(met.count > 0, f32::NEG_INFINITY.to_bits(), t.to_bits());
+        let next = select_unpredictable(met.count > 0, met.nearest.to_bits(), waiting.to_bits());
+        if f32::from_bits(t) <= t_far { Link::from_bits(next) } else { self.pop(t_far) }
     }
 
     /// Takes the next whose box the ray enters up to `t_far`.
@@ -42,12 +69,13 @@ impl Stack {
     /// Those that wait below it cannot be dropped with one that begins behind `t_far`: boxes are
     /// wider than cells, so that a ray may meet the box of a cell that it passes by.
     #[inline(always)]
-    pub(super) fn pop(&mut self, t_far: f32) -> Option<Link> {
-        while let (Some(t), Some(link)) = (self.t.pop(), self.links.pop()) {
+    pub(super) fn pop(&mut self, t_far: f32) -> Link {
+        loop {
+            let (t, link) = self.top();
+            self.len = self.len.wrapping_sub(1);
             if t <= t_far {
-                return Some(Link::from_bits(link));
+                return link;
             }
         }
-        None
     }
 }
