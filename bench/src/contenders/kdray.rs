@@ -75,10 +75,9 @@ struct InBatches {
 
 impl Trace for InBatches {
     fn trace(&mut self, answers: &mut Answers) {
-        let rays = self.rays.iter().copied();
         match answers {
             Answers::Closest(answers) => {
-                self.scene.each_closest_hit(rays, |index, hit| answers[index] = found(hit));
+                self.scene.each_closest_hit(&self.rays, |index, hit| answers[index] = found(hit));
             }
             Answers::Any(answers) => self.scene.any_hits(&self.rays, answers),
         }

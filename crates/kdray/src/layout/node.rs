@@ -47,12 +47,10 @@ impl WideNode {
             all.enumerate().fold(0, |order, (i, place)| order | u32::from(place) << (4 * i));
     }
 
-    /// The planes on an axis that a ray meets first and last; `is_negative`, zero or one, tells
-    /// whether its direction is.
+    /// The lower and the upper planes of the boxes on an axis.
     #[inline(always)]
-    pub(crate) fn near_and_far(&self, axis: usize, is_negative: usize) -> [&[f32; 8]; 2] {
-        let planes = &self.planes[axis];
-        [&planes[is_negative & 1], &planes[(is_negative & 1) ^ 1]]
+    pub(crate) fn planes(&self, axis: usize) -> &[[f32; 8]; 2] {
+        &self.planes[axis]
     }
 
     #[inline(always)]

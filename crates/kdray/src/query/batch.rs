@@ -4,6 +4,7 @@ use super::{Arithmetic, Scene};
 use crate::geometry::Ray;
 use crate::primitives::Hit;
 use crate::traverse::wide::{Any, Batch, Closest, Search};
+use std::borrow::Borrow;
 
 impl Scene {
     /// Batches on wide trees of more bytes than this take turns between rays: that takes more
@@ -27,7 +28,7 @@ impl Scene {
     /// If the slices differ in length.
     pub fn closest_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
         assert_eq!(rays.len(), hits.len(), "as many hits as rays");
-        self.each_closest_hit(rays.iter().copied(), |index, hit| hits[index] = hit);
+        self.each_closest_hit(rays, |index, hit| hits[index] = hit);
     }
 
     /// [`any_hit`](Self::any_hit) of each ray, on this thread: `found[i]` is that of `rays[i]`.
@@ -37,7 +38,7 @@ impl Scene {
     /// If the slices differ in length.
     pub fn any_hits(&self, rays: &[Ray], found: &mut [bool]) {
         assert_eq!(rays.len(), found.len(), "as many answers as rays");
-        self.each_any_hit(rays.iter().copied(), |index, is_hit| found[index] = is_hit);
+        self.each_any_hit(rays, |index, is_hit| found[index] = is_hit);
     }
 
     /// [`closest_hits`](Self::closest_hits) on all threads of the current rayon pool.
@@ -76,7 +77,7 @@ impl Scene {
     /// ```
     pub fn each_closest_hit(
         &self,
-        rays: impl IntoIterator<Item = Ray>,
+        rays: impl IntoIterator<Item: Borrow<Ray>>,
         found: impl FnMut(usize, Option<Hit>),
     ) {
         let one = |ray: &Ray| self.closest_hit(ray);
@@ -90,7 +91,7 @@ impl Scene {
     /// [`any_hit`](Self::any_hit).
     pub fn each_any_hit(
         &self,
-        rays: impl IntoIterator<Item = Ray>,
+        rays: impl IntoIterator<Item: Borrow<Ray>>,
         found: impl FnMut(usize, bool),
     ) {
         let one = |ray: &Ray| self.any_hit(ray);
@@ -103,14 +104,14 @@ impl Scene {
     /// Searches along each of `rays`, by the kernel that suits the tree's size.
     fn each<'a, Q: Search<'a>>(
         &'a self,
-        rays: impl IntoIterator<Item = Ray>,
+        rays: impl IntoIterator<Item: Borrow<Ray>>,
         one: impl Fn(&Ray) -> Q::Answer,
         mut found: impl FnMut(usize, Q::Answer),
     ) {
         let rays = rays.into_iter();
         match self.wide_tree().filter(|tree| tree.bytes() > self.batches_above) {
             Some(tree) => self.instructions.run(Batch::<Q, _, _, _>::new(tree, rays, one, found)),
-            None => rays.enumerate().for_each(|(index, ray)| found(index, one(&ray))),
+            None => rays.enumerate().for_each(|(index, ray)| found(index, one(ray.borrow()))),
         }
     }
 }

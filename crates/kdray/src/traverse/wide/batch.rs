@@ -11,6 +11,7 @@ use super::stack::Stack;
 use crate::geometry::Ray;
 use crate::layout::{Link, WideTree};
 use crate::simd::{Kernel, Lanes};
+use std::borrow::Borrow;
 use std::marker::PhantomData;
 
 /// Rays under way at once: their states should fit the first-level cache.
@@ -60,7 +61,7 @@ impl Queue {
 
 impl<'a, Q: Search<'a>, R, A, F> Batch<'a, Q, R, A, F>
 where
-    R: Iterator<Item = Ray<3>>,
+    R: Iterator<Item: Borrow<Ray<3>>>,
     A: Fn(&Ray<3>) -> Q::Answer,
     F: FnMut(usize, Q::Answer),
 {
@@ -74,7 +75,7 @@ where
 
 impl<'a, Q: Search<'a>, R, A, F> Kernel for Batch<'a, Q, R, A, F>
 where
-    R: Iterator<Item = Ray<3>>,
+    R: Iterator<Item: Borrow<Ray<3>>>,
     A: Fn(&Ray<3>) -> Q::Answer,
     F: FnMut(usize, Q::Answer),
 {
@@ -91,13 +92,13 @@ where
             while let Some(slot) = idle.pop() {
                 let Some((index, ray)) = rays.next() else { break };
                 let traveller = &mut travellers[usize::from(slot) % UNDER_WAY];
-                let started = traveller.start(simd, tree, index, &ray);
+                let started = traveller.start(simd, tree, index, ray.borrow());
                 nodes.push_if(started.is_ok(), slot);
                 idle.push_if(started.is_err(), slot);
                 match started {
                     Ok(()) => {}
                     Err(NoAim::Missed) => found(index, Q::Answer::default()),
-                    Err(NoAim::OutOfRange) => found(index, scalar(&ray)),
+                    Err(NoAim::OutOfRange) => found(index, scalar(ray.borrow())),
                 }
             }
             if nodes.len + leaves.len == 0 {
@@ -155,8 +156,8 @@ impl<'a, Q: Search<'a>> Traveller<Q> {
     /// Passes the next node.
     #[inline(always)]
     fn pass_node<S: Lanes>(&mut self, simd: S, tree: &WideTree) {
-        let slabs = Slabs::new(simd, &self.aim);
-        let met = slabs.meet(simd, tree.node(self.next));
+        let node = tree.node(self.next);
+        let met = Slabs::new(simd, &self.aim).meet(simd, node);
         self.next = self.stack.push_and_pop(&met, self.aim.t_far);
     }
 

@@ -47,11 +47,12 @@ impl<S: Lanes> Slabs<S> {
     /// Where the ray meets the planes on an axis: m and M.
     #[inline(always)]
     fn axis(&self, simd: S, node: &WideNode, axis: usize) -> (f32x8<S>, f32x8<S>) {
-        let [near, far] = node.near_and_far(axis, self.octant >> axis);
-        let (near, far) = (f32x8::load_array_ref(simd, near), f32x8::load_array_ref(simd, far));
+        let [low, high] = node.planes(axis);
+        let (low, high) = (f32x8::load_array_ref(simd, low), f32x8::load_array_ref(simd, high));
         // t = plane / d − o / d
         let (inverse, start) = (self.inverse[axis], self.start[axis]);
-        (near.mul_sub(inverse, start), far.mul_sub(inverse, start))
+        let (l, h) = (low.mul_sub(inverse, start), high.mul_sub(inverse, start));
+        (l.min(h), l.max(h))
     }
 
     /// The children of a node whose boxes the ray meets.
