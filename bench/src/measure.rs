@@ -5,13 +5,13 @@
 //! taken beside it. Contenders take turns in every round, so that a change of
 //! the machine's speed meets all of them, and ratios are the median of the rounds' ratios.
 
-use crate::contender::{Answers, Built, Contender, Job, Threads, Trace, full_name};
+use crate::contender::{Answers, Built, Contender, Job, Threads, Trace, TreeBytes, full_name};
 use crate::contenders::{BASELINE, wanted};
 use crate::error::BenchError;
 use crate::memory;
 use crate::rays::{RaySet, RaySets, SetKind};
 use crate::reference::{Truth, Wrong};
-use crate::report::{BuildRow, RayRow};
+use crate::report::{BuildRow, RayRow, TreesPerTriangle};
 use crate::scene::BenchScene;
 use crate::workers::Workers;
 use cpu_time::{ProcessTime, ThreadTime};
@@ -75,6 +75,8 @@ pub(crate) fn build<'a>(
         }
         let rust = memory::in_use().saturating_sub(before);
         let bytes = built.own_bytes().unwrap_or(rust);
+        let per_triangle = |bytes| bytes as f64 / scene.mesh.triangles().len().max(1) as f64;
+        let TreeBytes { canonical, wide } = built.trees();
         let threads = match contender.builds_on() {
             Threads::Chosen => workers.count,
             Threads::One => 1,
@@ -86,7 +88,11 @@ pub(crate) fn build<'a>(
             threads,
             build_s: median(wall),
             build_cpu_s: median(cpu),
-            bytes_per_triangle: bytes as f64 / scene.mesh.triangles().len().max(1) as f64,
+            bytes_per_triangle: per_triangle(bytes),
+            trees: TreesPerTriangle {
+                canonical: canonical.map(per_triangle),
+                wide: wide.map(per_triangle),
+            },
         };
         return Ok((Ready { contender, built }, row));
     }

@@ -204,6 +204,7 @@ fn rates(figures: &Figures, sizes: &[(String, usize)], set: &str) -> Vec<Vec<Str
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::report::TreesPerTriangle;
 
     #[test]
     fn exponents_are_slopes() {
@@ -223,6 +224,7 @@ mod tests {
             build_s,
             build_cpu_s: build_s,
             bytes_per_triangle: 1.0,
+            trees: TreesPerTriangle::default(),
         };
         let builds = [row("a", 1, 1.0), row("a", 2, 9.0), row("b", 1, 10.0), row("b", 2, 9.0)];
         let fits = fits(&builds, &[("a".to_owned(), 10), ("b".to_owned(), 100)]);
