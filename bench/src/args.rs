@@ -39,9 +39,12 @@ pub(crate) struct Compare {
     /// Only contenders whose names contain one of these, and the one that ratios are to
     #[arg(long, value_delimiter = ',', value_name = "TEXT")]
     pub(crate) contenders: Vec<String>,
-    /// Three scenes, 512 x 512 rays, three rounds, smaller samples, builds on one thread only
+    /// Three scenes, 512 x 512 rays, three rounds, smaller samples
     #[arg(long)]
     pub(crate) quick: bool,
+    /// How many threads to build on, one number after the other; the first structure is traced
+    #[arg(long, value_delimiter = ',', value_name = "N", default_value = "1,2", value_parser = threads)]
+    pub(crate) build_threads: Vec<usize>,
     /// How often everything is measured; 5 if not given
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub(crate) rounds: Option<u32>,
@@ -109,6 +112,13 @@ fn numbers(text: &str) -> Result<[f64; 3], String> {
     }
 }
 
+fn threads(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(count) if (1..=1024).contains(&count) => Ok(count),
+        _ => Err("give numbers from 1 to 1024".to_owned()),
+    }
+}
+
 fn resolution(text: &str) -> Result<u32, String> {
     match text.parse() {
         Ok(side) if side % 16 == 0 && (16..=4096).contains(&side) => Ok(side),
@@ -125,6 +135,7 @@ mod tests {
         assert_eq!(numbers("1, -2,3e1"), Ok([1.0, -2.0, 30.0]));
         assert!(numbers("1,2").is_err() && numbers("1,2,nan").is_err());
         assert_eq!(resolution("512"), Ok(512));
+        assert!(threads("0").is_err() && threads("2") == Ok(2));
         assert!(resolution("500").is_err() && resolution("0").is_err());
     }
 
@@ -134,6 +145,7 @@ mod tests {
         Arguments::command().debug_assert();
         let parsed = Arguments::parse_from(["bench", "--scenes", "a,b", "--quick"]);
         assert_eq!(parsed.compare.scenes, ["a", "b"]);
+        assert_eq!(parsed.compare.build_threads, [1, 2]);
         let parsed = Arguments::parse_from(["bench", "scaling", "--quick"]);
         assert!(matches!(parsed.task, Some(Task::Scaling(Scaling { quick: true, .. }))));
     }

@@ -135,26 +135,31 @@ impl Run<'_> {
         }
     }
 
-    /// Builds all structures on one thread, to be kept, and on two, only to know the time.
+    /// Builds all structures on the first number of threads, to be kept, and on the others only to
+    /// know the time.
     fn build_all<'a>(
         &'a self,
         scene: &'a BenchScene,
         rows: &mut Vec<BuildRow>,
     ) -> Result<Vec<Ready<'a>>, BenchError> {
-        let (one, two) = (Workers::new(1)?, Workers::new(2)?);
+        let workers = self.options.build_threads.iter().map(|&count| Workers::new(count));
+        let workers: Vec<Workers> = workers.collect::<Result<_, _>>()?;
         let mut ready = Vec::new();
         for contender in &self.contenders {
             let contender = contender.as_ref();
             let start = Instant::now();
-            let (built, row) = measure::build(contender, scene, &one, (self.rounds, BUILDS))?;
-            ready.push(built);
-            rows.push(row);
-            if contender.builds_on() == Threads::Chosen && !self.options.quick {
-                rows.push(measure::build(contender, scene, &two, (self.rounds, BUILDS))?.1);
+            let has_choice = contender.builds_on() == Threads::Chosen;
+            let mut kept = None;
+            for workers in &workers[..if has_choice { workers.len() } else { 1 }] {
+                let (built, row) =
+                    measure::build(contender, scene, workers, (self.rounds, BUILDS))?;
+                kept = kept.or(Some(built));
+                rows.push(row);
             }
-            let row = rows.last().map_or(0.0, |row| row.bytes_per_triangle);
+            ready.extend(kept);
+            let bytes = rows.last().map_or(0.0, |row| row.bytes_per_triangle);
             let took = spoken(start.elapsed());
-            say(&format!("  built {} in {took}, {row:.0} B a triangle", contender.name()));
+            say(&format!("  built {} in {took}, {bytes:.0} B a triangle", contender.name()));
         }
         Ok(ready)
     }

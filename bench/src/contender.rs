@@ -80,11 +80,25 @@ pub(crate) enum Threads {
     All,
 }
 
+/// How many bytes kd-trees take, without what else is kept for queries.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct TreeBytes {
+    /// The canonical tree: nodes and references, without the triangles.
+    pub(crate) canonical: Option<usize>,
+    /// The wide tree, which has the triangles in its blocks.
+    pub(crate) wide: Option<usize>,
+}
+
 /// A structure, ready for rays.
 pub(crate) trait Built: Send {
     /// How many bytes it takes, if the allocator of Rust code does not see them.
     fn own_bytes(&self) -> Option<usize> {
         None
+    }
+
+    /// How many bytes the trees of kdray take.
+    fn trees(&self) -> TreeBytes {
+        TreeBytes::default()
     }
 
     /// Puts rays into the kernel's own format, which is not measured. `None` if this kernel does

@@ -5,13 +5,13 @@
 //! taken beside it. Contenders take turns in every round, so that a change of
 //! the machine's speed meets all of them, and ratios are the median of the rounds' ratios.
 
-use crate::contender::{Answers, Built, Contender, Job, Threads, Trace, full_name};
+use crate::contender::{Answers, Built, Contender, Job, Threads, Trace, TreeBytes, full_name};
 use crate::contenders::{BASELINE, wanted};
 use crate::error::BenchError;
 use crate::memory;
 use crate::rays::{RaySet, RaySets, SetKind};
 use crate::reference::{Truth, Wrong};
-use crate::report::{BuildRow, RayRow};
+use crate::report::{BuildRow, RayRow, TreesPerTriangle};
 use crate::scene::BenchScene;
 use crate::workers::Workers;
 use cpu_time::{ProcessTime, ThreadTime};
@@ -75,6 +75,8 @@ pub(crate) fn build<'a>(
         }
         let rust = memory::in_use().saturating_sub(before);
         let bytes = built.own_bytes().unwrap_or(rust);
+        let per_triangle = |bytes| bytes as f64 / scene.mesh.triangles().len().max(1) as f64;
+        let TreeBytes { canonical, wide } = built.trees();
         let threads = match contender.builds_on() {
             Threads::Chosen => workers.count,
             Threads::One => 1,
@@ -86,7 +88,11 @@ pub(crate) fn build<'a>(
             threads,
             build_s: median(wall),
             build_cpu_s: median(cpu),
-            bytes_per_triangle: bytes as f64 / scene.mesh.triangles().len().max(1) as f64,
+            bytes_per_triangle: per_triangle(bytes),
+            trees: TreesPerTriangle {
+                canonical: canonical.map(per_triangle),
+                wide: wide.map(per_triangle),
+            },
         };
         return Ok((Ready { contender, built }, row));
     }
@@ -108,8 +114,9 @@ struct Lane<'a> {
     name: String,
     trace: Box<dyn Trace + 'a>,
     answers: Answers,
+    /// Which rays of the set these are.
+    runs: Vec<Range<usize>>,
     rays: usize,
-    wrong: Wrong,
     took: Vec<Took>,
 }
 
@@ -131,10 +138,7 @@ pub(crate) fn trace(
             if wanted(*contender, kernel, terms.names) {
                 let name = full_name(*contender, kernel);
                 let prepare = |set: &RaySet| built.prepare(kernel, &Job { set, primary });
-                let lane = Lane::prepared_in_time(name, prepare, set, terms.longest_trace);
-                lanes.extend(
-                    lane.map(|(lane, runs)| lane.checked(set, &runs, truth, scene.diagonal)),
-                );
+                lanes.extend(Lane::prepared_in_time(name, prepare, set, terms.longest_trace));
             }
         }
     }
@@ -143,20 +147,25 @@ pub(crate) fn trace(
     }
     let baseline = lanes.iter().position(|lane| lane.name == BASELINE);
     let baseline = baseline.map(|index| lanes[index].rates());
-    lanes.iter().map(|lane| lane.row(scene, kind, baseline.as_deref())).collect()
+    let row = |lane: &Lane<'_>| {
+        let wrong = lane.check(set, truth, scene.diagonal);
+        lane.row(scene, kind, baseline.as_deref(), wrong)
+    };
+    lanes.iter().map(row).collect()
 }
 
 impl<'a> Lane<'a> {
-    /// Prepares all rays of a set, or else as many as can be traced in time, and tells which.
+    /// Prepares all rays of a set, or else as many as can be traced in time.
     fn prepared_in_time(
         name: String,
         prepare: impl Fn(&RaySet) -> Option<Box<dyn Trace + 'a>>,
         set: &RaySet,
         longest: f64,
-    ) -> Option<(Self, Vec<Range<usize>>)> {
+    ) -> Option<Self> {
         let all = set.rays.len();
-        let pilot = set.sample(&set.sample_runs(all / 64));
-        let mut lane = Self::prepared(name, prepare(&pilot)?, &pilot);
+        let runs = set.sample_runs(all / 64);
+        let pilot = set.sample(&runs);
+        let mut lane = Self::prepared(name, prepare(&pilot)?, &pilot, runs);
         // The first time warms the caches.
         lane.run();
         lane.run();
@@ -164,27 +173,24 @@ impl<'a> Lane<'a> {
         let share = (longest / seconds.max(longest)).max(1.0 / SMALLEST_SAMPLE as f64);
         let runs = set.sample_runs((all as f64 * share) as usize);
         let set = set.sample(&runs);
-        Some((Self::prepared(lane.name, prepare(&set)?, &set), runs))
+        Some(Self::prepared(lane.name, prepare(&set)?, &set, runs))
     }
 
-    /// Traces the rays once and checks the answers.
-    fn checked(
-        mut self,
+    fn prepared(
+        name: String,
+        trace: Box<dyn Trace + 'a>,
         set: &RaySet,
-        runs: &[Range<usize>],
-        truth: &Truth,
-        diagonal: f64,
+        runs: Vec<Range<usize>>,
     ) -> Self {
-        self.trace.trace(&mut self.answers);
-        let rays = set.sample(runs).rays;
-        self.wrong = truth.sample(runs).check(&self.answers, &rays, diagonal);
-        self
-    }
-
-    fn prepared(name: String, trace: Box<dyn Trace + 'a>, set: &RaySet) -> Self {
         let rays = set.rays.len();
         let answers = Answers::room(set.kind.question(), rays);
-        Self { name, trace, answers, rays, wrong: Wrong::default(), took: Vec::new() }
+        Self { name, trace, answers, runs, rays, took: Vec::new() }
+    }
+
+    /// Counts the wrong ones among the answers of the last round.
+    fn check(&self, set: &RaySet, truth: &Truth, diagonal: f64) -> Wrong {
+        let rays = set.sample(&self.runs).rays;
+        truth.sample(&self.runs).check(&self.answers, &rays, diagonal)
     }
 
     fn run(&mut self) {
@@ -197,7 +203,13 @@ impl<'a> Lane<'a> {
         self.took.iter().map(|took| self.rays as f64 / took.cpu).collect()
     }
 
-    fn row(&self, scene: &BenchScene, kind: SetKind, baseline: Option<&[f64]>) -> RayRow {
+    fn row(
+        &self,
+        scene: &BenchScene,
+        kind: SetKind,
+        baseline: Option<&[f64]>,
+        wrong: Wrong,
+    ) -> RayRow {
         let rates = self.rates();
         let ratio =
             |base: &[f64]| median(rates.iter().zip(base).map(|(rate, base)| rate / base).collect());
@@ -211,7 +223,7 @@ impl<'a> Lane<'a> {
                 / 1e6,
             ratio: baseline.map(ratio),
             mrays: median(rates) / 1e6,
-            wrong: self.wrong,
+            wrong,
         }
     }
 }
@@ -257,11 +269,11 @@ mod tests {
         let hits = reference.hits(&set.rays).iter().flatten().count();
         let lane = |t| {
             let prepare = move |_: &RaySet| Some(Box::new(Always(t)) as Box<dyn Trace>);
-            let lane = Lane::prepared_in_time("liar".into(), prepare, set, 1.0);
-            let (lane, runs) = lane.unwrap();
-            lane.checked(set, &runs, &truth, scene.diagonal)
+            let mut lane = Lane::prepared_in_time("liar".into(), prepare, set, 1.0).unwrap();
+            lane.run();
+            lane.check(set, &truth, scene.diagonal)
         };
-        let wrong = lane(1e6).wrong;
+        let wrong = lane(1e6);
         assert_eq!(wrong.phantom as usize, set.rays.len() - hits);
         assert_eq!((wrong.far as usize, wrong.lost), (hits, 0));
     }

@@ -28,7 +28,8 @@ const BUILDS: f64 = 5.0;
 /// Who takes part if nobody is named.
 const CONTENDERS: [&str; 3] = ["kdray", "embree medium single", "embree high single"];
 
-/// The fitted build time of a contender: t ∝ x^exponent.
+/// The fitted build time of a contender: t ∝ x^exponent. By processor time, which on one thread is
+/// that of a quiet machine.
 #[derive(Debug, Serialize)]
 struct Fit {
     contender: String,
@@ -124,7 +125,7 @@ fn fits(builds: &[BuildRow], sizes: &[(String, usize)]) -> Vec<Fit> {
     let fit = |name: &str| {
         let points = sizes.iter().filter_map(|(scene, size)| {
             let mut rows = builds.iter().filter(|it| it.contender == name && it.scene == *scene);
-            Some((*size as f64, rows.next()?.build_s))
+            Some((*size as f64, rows.next()?.build_cpu_s))
         });
         let points: Vec<(f64, f64)> = points.collect();
         let by = |x: fn(f64) -> f64| exponent(points.iter().map(|&(n, t)| (x(n), t)));
@@ -151,7 +152,7 @@ fn exponent(points: impl Iterator<Item = (f64, f64)>) -> f64 {
 fn text(figures: &Figures, sizes: &[(String, usize)]) -> String {
     let mut text = format!("{}\n\n", figures.machine.text());
     let names = figures.fits.iter().map(|fit| fit.contender.clone());
-    text += "Build on one thread: seconds, and microseconds a triangle\n";
+    text += "Build on one thread: seconds of processor time, and microseconds a triangle\n";
     let mut rows: Vec<Vec<String>> =
         vec![std::iter::once("triangles".to_owned()).chain(names).collect()];
     for (scene, size) in sizes {
@@ -159,7 +160,7 @@ fn text(figures: &Figures, sizes: &[(String, usize)]) -> String {
             let mut builds = figures.builds.iter();
             let row = builds.find(|it| it.contender == fit.contender && it.scene == *scene);
             row.map_or("–".to_owned(), |row| {
-                let seconds = row.build_s;
+                let seconds = row.build_cpu_s;
                 format!("{seconds:.4} {:6.3}", seconds * 1e6 / *size as f64)
             })
         };
@@ -204,6 +205,7 @@ fn rates(figures: &Figures, sizes: &[(String, usize)], set: &str) -> Vec<Vec<Str
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::report::TreesPerTriangle;
 
     #[test]
     fn exponents_are_slopes() {
@@ -223,6 +225,7 @@ mod tests {
             build_s,
             build_cpu_s: build_s,
             bytes_per_triangle: 1.0,
+            trees: TreesPerTriangle::default(),
         };
         let builds = [row("a", 1, 1.0), row("a", 2, 9.0), row("b", 1, 10.0), row("b", 2, 9.0)];
         let fits = fits(&builds, &[("a".to_owned(), 10), ("b".to_owned(), 100)]);

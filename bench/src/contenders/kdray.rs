@@ -1,11 +1,15 @@
 //! kdray itself.
 
-use crate::contender::{Answers, Built, Contender, Found, Job, Trace, one_by_one};
+use crate::contender::{Answers, Built, Contender, Found, Job, Trace, TreeBytes, one_by_one};
 use crate::error::BenchError;
 use crate::reference::exact_ray;
 use crate::workers::Workers;
 use kdray::build::Preset;
-use kdray::{Arithmetic, BuildOptions, Hit, Ray, Scene, ShapeScene, Strategy, TriangleMesh};
+use kdray::layout::WideTree;
+use kdray::{
+    Arithmetic, BuildOptions, CostModel, Hit, KdTree, Ray, Scene, ShapeScene, Strategy,
+    TriangleMesh,
+};
 
 /// All of kdray's structures.
 pub(super) fn all() -> Vec<Box<dyn Contender>> {
@@ -51,6 +55,11 @@ struct BuiltKdray {
 }
 
 impl Built for BuiltKdray {
+    fn trees(&self) -> TreeBytes {
+        let wide = self.scene.wide_tree().map(WideTree::bytes);
+        TreeBytes { canonical: Some(bytes(self.scene.tree())), wide }
+    }
+
     fn prepare<'a>(&'a self, kernel: &str, job: &Job<'_>) -> Option<Box<dyn Trace + 'a>> {
         let scene = self.scene.clone();
         let (kernel, scene) = match kernel.strip_suffix(" float") {
@@ -107,6 +116,10 @@ struct BuiltLecture {
 }
 
 impl Built for BuiltLecture {
+    fn trees(&self) -> TreeBytes {
+        TreeBytes { canonical: Some(bytes(self.scene.tree())), wide: None }
+    }
+
     fn prepare<'a>(&'a self, _kernel: &str, job: &Job<'_>) -> Option<Box<dyn Trace + 'a>> {
         one_by_one(
             job,
@@ -115,6 +128,12 @@ impl Built for BuiltLecture {
             |ray| self.scene.any_hit(ray),
         )
     }
+}
+
+/// How much memory the canonical tree takes.
+fn bytes(tree: &KdTree) -> usize {
+    // Neither the number of triangles nor the cost has to do with it.
+    tree.stats(0, &CostModel::default()).bytes
 }
 
 fn found(hit: Option<Hit>) -> Found {

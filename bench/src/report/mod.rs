@@ -3,6 +3,7 @@
 mod file;
 mod plot;
 mod record;
+mod summary;
 mod table;
 
 use crate::args::Compare;
@@ -46,6 +47,19 @@ pub(crate) struct BuildRow {
     pub(crate) build_cpu_s: f64,
     /// Everything that must be kept, triangles included.
     pub(crate) bytes_per_triangle: f64,
+    #[serde(flatten)]
+    pub(crate) trees: TreesPerTriangle,
+}
+
+/// Bytes a triangle of trees alone; only kdray tells of its own.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub(crate) struct TreesPerTriangle {
+    /// Nodes and references, without the triangles.
+    #[serde(rename = "canonical_tree_bytes_per_triangle", skip_serializing_if = "Option::is_none")]
+    pub(crate) canonical: Option<f64>,
+    /// With the triangles in its blocks.
+    #[serde(rename = "wide_tree_bytes_per_triangle", skip_serializing_if = "Option::is_none")]
+    pub(crate) wide: Option<f64>,
 }
 
 /// All figures.
@@ -89,6 +103,33 @@ impl Report {
     /// Names of contenders, in order.
     fn contenders(&self) -> Vec<&str> {
         self.distinct(|row| &row.contender)
+    }
+
+    /// Names of contenders that built, in order.
+    fn builders(&self) -> Vec<&str> {
+        let mut names: Vec<&str> = Vec::new();
+        for row in &self.builds {
+            if !names.contains(&row.contender.as_str()) {
+                names.push(&row.contender);
+            }
+        }
+        names
+    }
+
+    /// The numbers of threads that were built on, rising.
+    fn build_threads(&self) -> Vec<usize> {
+        let mut counts: Vec<usize> = self.builds.iter().map(|row| row.threads).collect();
+        counts.sort_unstable();
+        counts.dedup();
+        counts
+    }
+
+    /// How a contender's build of a scene went on so many threads.
+    fn build(&self, contender: &str, scene: &str, threads: usize) -> Option<&BuildRow> {
+        let is_it = |row: &&BuildRow| {
+            row.contender == contender && row.scene == scene && row.threads == threads
+        };
+        self.builds.iter().find(is_it)
     }
 
     /// Whether there was Embree to compare with.
@@ -203,15 +244,14 @@ pub(crate) mod tests {
                     ratio: Some(ratio),
                     wrong,
                 });
-                let (build_s, build_cpu_s, bytes_per_triangle) = (1.5, 1.4, 60.0);
-                let threads = 1;
                 report.builds.push(BuildRow {
                     scene,
                     contender,
-                    threads,
-                    build_s,
-                    build_cpu_s,
-                    bytes_per_triangle,
+                    threads: 1,
+                    build_s: 1.5,
+                    build_cpu_s: 1.4,
+                    bytes_per_triangle: 60.0,
+                    trees: TreesPerTriangle::default(),
                 });
             }
         }
@@ -233,7 +273,12 @@ pub(crate) mod tests {
         let json: serde_json::Value = serde_json::from_slice(&to_json(&report())).unwrap();
         let row = &json["rays"][1];
         assert_eq!((row["scene"].as_str(), row["lost"].as_u64()), (Some("bunny"), Some(7)));
-        assert_eq!(json["builds"][0]["bytes_per_triangle"], 60.0);
+        let keys = ["scene", "set", "contender", "mrays", "ratio", "lost", "phantom", "far"];
+        assert!(keys.iter().all(|key| row.get(key).is_some()), "{row}");
+        let row = &json["builds"][0];
+        assert_eq!(row["bytes_per_triangle"], 60.0);
+        let keys = ["scene", "contender", "threads", "build_s"];
+        assert!(keys.iter().all(|key| row.get(key).is_some()), "{row}");
         assert!(json["machine"]["cpu"].is_string());
     }
 

@@ -1,6 +1,6 @@
 //! The figures as text.
 
-use super::{RayRow, Report, geometric_mean};
+use super::{BuildRow, RayRow, Report, geometric_mean, summary};
 use crate::reference::Wrong;
 
 /// All tables.
@@ -22,8 +22,12 @@ pub(super) fn text(report: &Report) -> String {
     text += &columns(&means(report));
     text += "\nWrong answers in all scenes: lost / phantom / far of so many rays\n";
     text += &columns(&wrong(report));
-    text += "\nBuild: seconds on one thread | on two (wall time) | bytes a triangle, all told\n";
+    let threads: Vec<String> = report.build_threads().iter().map(usize::to_string).collect();
+    let threads = threads.join(" | ");
+    text += &format!("\nBuild: seconds of wall time on {threads} threads | bytes a triangle\n");
     text += &columns(&builds(report));
+    text += summary::TITLE;
+    text += &columns(&summary::builds(report));
     text
 }
 
@@ -127,25 +131,24 @@ fn wrong(report: &Report) -> Vec<Vec<String>> {
 fn builds(report: &Report) -> Vec<Vec<String>> {
     let head = std::iter::once(String::new());
     let head = head.chain(report.scenes.iter().map(|(name, _)| name.clone())).collect();
-    let mut names: Vec<&str> = Vec::new();
-    for row in &report.builds {
-        if !names.contains(&row.contender.as_str()) {
-            names.push(&row.contender);
-        }
-    }
+    let threads = report.build_threads();
     let cell = |contender: &str, scene: &str| {
-        let mut found =
-            report.builds.iter().filter(|it| it.contender == contender && it.scene == scene);
-        let (Some(first), second) = (found.next(), found.next()) else { return "–".to_owned() };
-        let second = second.map_or("–".to_owned(), |row| seconds(row.build_s));
-        let bytes = first.bytes_per_triangle;
-        format!("{} | {second} | {bytes:.0}", seconds(first.build_s))
+        let rows = threads.iter().map(|&count| report.build(contender, scene, count));
+        let rows: Vec<Option<&BuildRow>> = rows.collect();
+        let time = |row: &Option<&BuildRow>| row.map_or("–".to_owned(), |it| seconds(it.build_s));
+        let bytes = rows
+            .iter()
+            .flatten()
+            .next()
+            .map_or("–".to_owned(), |row| format!("{:.0}", row.bytes_per_triangle));
+        let times: Vec<String> = rows.iter().map(time).collect();
+        format!("{} | {bytes}", times.join(" | "))
     };
     let row = |contender: &str| {
         let cells = report.scenes.iter().map(|(scene, _)| cell(contender, scene));
         std::iter::once(contender.to_owned()).chain(cells).collect()
     };
-    rows(head, names.into_iter().map(row))
+    rows(head, report.builders().into_iter().map(row))
 }
 
 /// Seconds in two or three digits.
@@ -168,8 +171,7 @@ mod tests {
     #[test]
     fn tables_hold_ratios_rates_and_wrong_answers() {
         let text = text(&report());
-        for part in ["0.50  1.50  1.00", "2.00  6.00  4.00", "14 / 0 / 0 of 8192", "1.50 | – | 60"]
-        {
+        for part in ["0.50  1.50  1.00", "2.00  6.00  4.00", "14 / 0 / 0 of 8192", "1.50 | 60"] {
             assert!(text.contains(part), "{part} in:\n{text}");
         }
     }

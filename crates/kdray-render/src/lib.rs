@@ -7,15 +7,16 @@
 #![forbid(unsafe_code)]
 
 mod camera;
+mod camera_rays;
 mod film;
 mod light;
 mod options;
 mod picture;
-mod pixel;
 mod render;
 mod sampling;
 mod shade;
 mod surface;
+mod tile;
 mod tiles;
 mod work;
 mod world;

@@ -5,7 +5,7 @@ use crate::film::{Film, MAX_PICTURE_BYTES};
 use crate::light::{Lamp, LightError, default_lights};
 use crate::options::RenderOptions;
 use crate::picture::Picture;
-use crate::pixel::PixelTracer;
+use crate::tile::TileTracer;
 use crate::tiles::Tiles;
 use crate::work::{RenderProgress, Work};
 use crate::world::World;
@@ -124,9 +124,10 @@ pub fn render_with_progress(
     let work = Work::new(film, tiles, progress);
     (0..tiles.count()).into_par_iter().for_each(|index| {
         if !work.is_stopped() {
-            let tracer = PixelTracer::new(world, &view, &lamps, options);
-            let pixels = tiles.pixels(index).map(|pixel| (pixel, tracer.trace(pixel))).collect();
-            work.keep(pixels, tracer.rays());
+            let mut tracer = TileTracer::new(world, &view, &lamps, options);
+            let pixels: Vec<[usize; 2]> = tiles.pixels(index).collect();
+            let values = tracer.trace(&pixels);
+            work.keep(pixels.into_iter().zip(values), tracer.rays());
             work.tell();
         }
     });

@@ -1,7 +1,7 @@
 //! A model that rays can be shot at.
 
 use kdray::{Aabb, BuildError, BuildOptions, BuildProgress, MeshError, Scene, TriangleMesh};
-use kdray_scene::{Material, Model, TextureRef};
+use kdray_scene::{AlphaMode, Material, Model, TextureRef};
 use std::ops::ControlFlow;
 use thiserror::Error;
 
@@ -12,6 +12,7 @@ pub struct World {
     scene: Scene,
     /// What triangles look like that have no material.
     default_material: Material,
+    lets_light_through: bool,
 }
 
 /// Why a model cannot be rendered.
@@ -98,7 +99,8 @@ impl World {
         let triangles = std::mem::take(&mut model.triangles);
         let mesh = TriangleMesh::new(vertices, triangles)?;
         let scene = Scene::build_with_progress(mesh, options, progress)?;
-        Ok(Self { model, scene, default_material: Material::default() })
+        let lets_light_through = lets_light_through(&model);
+        Ok(Self { model, scene, default_material: Material::default(), lets_light_through })
     }
 
     /// The triangles with the tree over them.
@@ -117,11 +119,27 @@ impl World {
         self.scene.tree().bounds()
     }
 
+    /// Whether light passes some of the triangles; where it does not, any hit ends a shadow ray.
+    pub(crate) fn lets_light_through(&self) -> bool {
+        self.lets_light_through
+    }
+
     /// What a triangle looks like.
     pub fn material(&self, triangle: u32) -> &Material {
         let id = self.model.material_ids.get(triangle as usize);
         id.and_then(|&id| self.model.materials.get(id as usize)).unwrap_or(&self.default_material)
     }
+}
+
+/// Whether no light passes, whatever the textures say.
+pub(crate) fn is_opaque(material: &Material) -> bool {
+    material.transmission == 0.0 && material.alpha_mode == AlphaMode::Opaque
+}
+
+/// Whether some triangle has a material that light passes.
+fn lets_light_through(model: &Model) -> bool {
+    let passes: Vec<bool> = model.materials.iter().map(|it| !is_opaque(it)).collect();
+    model.material_ids.iter().any(|&id| passes[id as usize])
 }
 
 fn check(model: &Model) -> Result<(), WorldError> {
@@ -163,4 +181,25 @@ fn check_materials(model: &Model) -> Result<(), WorldError> {
         }
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_materials_in_use_let_light_through() {
+        let glass = Material { transmission: 1.0, ..Material::default() };
+        let veil = Material { alpha_mode: AlphaMode::Blend, ..Material::default() };
+        let with_ids = |material_ids: &[u32]| Model {
+            materials: vec![Material::default(), glass.clone(), veil.clone()],
+            material_ids: material_ids.to_vec(),
+            ..Model::default()
+        };
+        let cases: [(&[u32], bool); 4] =
+            [(&[], false), (&[0, 0], false), (&[0, 1], true), (&[2], true)];
+        for (ids, expected) in cases {
+            assert_eq!(lets_light_through(&with_ids(ids)), expected, "{ids:?}");
+        }
+    }
 }

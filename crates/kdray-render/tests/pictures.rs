@@ -31,6 +31,22 @@ fn any_number_of_threads_gives_the_same_picture() {
 }
 
 #[test]
+fn opaque_things_cast_the_same_shadows_whether_or_not_glass_is_elsewhere() {
+    let picture = |with_glass: bool| {
+        let materials = vec![lambert(0.8), glass(1.5)];
+        let mut model = Model { materials, ..Model::default() };
+        add_floor(&mut model, 4.0, 0.0, 0);
+        add_box(&mut model, [-1.0, 0.5, -1.0], [0.5, 1.5, 1.0], 0);
+        let elsewhere = [[0.0, -3.0, 0.0], [1.0, -3.0, 0.0], [0.0, -2.5, 0.0], [0.0, -2.5, 0.1]];
+        add_quad(&mut model, elsewhere, u32::from(with_glass));
+        let options = RenderOptions { occlusion_distance: Some(2.0), ..small(PictureKind::Shaded) };
+        let (_, camera, lights) = still_life();
+        shoot(&world(model), &camera, &lights, &options)
+    };
+    assert!(picture(true) == picture(false));
+}
+
+#[test]
 fn a_layer_is_the_same_alone_and_among_all() {
     let (world, camera, lights) = still_life();
     let all = RenderOptions { all_layers: true, ..small(PictureKind::Shaded) };

@@ -1,9 +1,15 @@
 //! How much light comes back along a ray.
 
+mod bounce;
 mod dielectric;
 mod direct;
+mod first;
 mod gloss;
+mod light_rays;
+mod matt;
 mod shadow;
+mod tracer;
 mod whitted;
 
-pub(crate) use whitted::{Path, Tracer};
+pub(crate) use direct::Surroundings;
+pub(crate) use tracer::Tracer;

@@ -152,13 +152,6 @@ impl Scene {
         }
     }
 
-    /// What [`any_hit`](Self::any_hit) found: some hit, not necessarily the first, but the same
-    /// one on every run.
-    #[must_use]
-    pub fn occluder(&self, ray: &Ray) -> Option<Hit> {
-        self.trees.shapes.occluder(ray)
-    }
-
     /// Every crossing of a surface, once, by rising t
     /// ([`HitRule::Crossing`](crate::primitives::HitRule::Crossing)), found as they are asked for.
     pub fn all_hits(&self, ray: &Ray) -> AllHits<'_, TriangleMesh, 3> {
