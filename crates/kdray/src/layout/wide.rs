@@ -1,12 +1,14 @@
 //! The wide tree.
 
-use super::arena::{Arena, Link};
+use super::arena::{Arena, Link, Room};
 use super::collapse::Treelet;
-use super::tight::tight_boxes;
+use super::plan::{Plan, part_of_leaf};
 use super::{TriangleBlock, WideNode};
+use crate::build::parallel::map_all;
 use crate::geometry::Aabb;
 use crate::primitives::TriangleMesh;
 use crate::tree::{KdTree, NodeKind};
+use arrayvec::ArrayVec;
 
 /// Room on the kernels' stacks. A tree that needs more is not made wide.
 pub(crate) const STACK_SIZE: usize = 128;
@@ -36,24 +38,24 @@ struct Placed {
 struct Placer<'a> {
     mesh: &'a TriangleMesh,
     tree: &'a KdTree<3>,
-    boxes: Vec<Aabb<3>>,
+    /// Those of the tree's nodes.
+    boxes: &'a [Aabb<3>],
     pad: f64,
-    arena: Arena,
 }
 
 impl WideTree {
-    /// The wide form of `tree`, which is one over `mesh`; `bounds` are those of the parts of the
-    /// triangles that its leaves list. `None` if the mesh is larger than 2^32 or smaller than 2^-32,
+    /// The wide form of `tree`, which is one over `mesh`; `boxes` are those around the parts of the
+    /// triangles that are listed below each node. `None` if the mesh is larger than 2^32 or smaller than 2^-32,
     /// for the kernels' numbers are f32, or if the tree is larger than 16 GiB or degenerate.
-    pub(crate) fn new(tree: &KdTree<3>, bounds: &[Aabb<3>], mesh: &TriangleMesh) -> Option<Self> {
+    pub(crate) fn new(tree: &KdTree<3>, boxes: &[Aabb<3>], mesh: &TriangleMesh) -> Option<Self> {
         let reach = reach(tree.bounds())?;
         let pad = f64::from(12.0 * ROUNDING * reach);
-        let boxes = tight_boxes(tree, bounds);
-        let mut placer = Placer { mesh, tree, boxes, pad, arena: Arena::default() };
-        let root = placer.place_node(0)?;
-        placer.arena.shrink_to_fit();
+        let plan = Plan::new(tree, boxes);
+        let mut arena = Arena::new(plan.lines)?;
+        let placer = Placer { mesh, tree, boxes, pad };
+        let root = placer.place_node(0, &plan.children, &mut arena.room());
         let fits = root.link == Link::ROOT && root.stack + WideNode::WIDTH <= STACK_SIZE;
-        fits.then_some(Self { arena: placer.arena, reach })
+        fits.then_some(Self { arena, reach })
     }
 
     /// How far from zero, on any axis, a ray may start so that the boxes' margins cover what
@@ -89,53 +91,66 @@ fn reach(bounds: &Aabb<3>) -> Option<f32> {
 }
 
 impl Placer<'_> {
-    /// Places a node of the binary tree as a wide one, then all below it.
-    fn place_node(&mut self, root: u32) -> Option<Placed> {
-        let treelet = Treelet::new(self.tree, &self.boxes, root);
-        let link = self.arena.reserve_node();
+    /// Places a node of the binary tree as a wide one, then all below it: those of its children that
+    /// are nodes at once if there are `plans` for them.
+    fn place_node(&self, root: u32, plans: &[Plan], room: &mut Room<'_>) -> Placed {
+        let treelet = Treelet::new(self.tree, self.boxes, root);
+        let (link, place) = room.take_node();
+        let mut placed = ArrayVec::<_, { WideNode::WIDTH }>::new();
+        let (mut tasks, mut plans) = (Vec::new(), plans.iter());
+        for &end in &treelet.ends {
+            let is_leaf = matches!(self.tree.nodes()[end as usize].kind(), NodeKind::Leaf { .. });
+            placed.push(if is_leaf {
+                Some(self.place_leaf(self.tree.leaf_primitives(end), &self.padded(end), room))
+            } else if let Some(plan) = plans.next() {
+                tasks.push((end, plan, room.take(plan.lines)));
+                None
+            } else {
+                Some(self.place_node(end, &[], room))
+            });
+        }
+        let mut apart =
+            map_all(tasks, |(end, plan, mut room)| self.place_node(end, &plan.children, &mut room))
+                .into_iter();
+
         let mut node = WideNode::EMPTY;
+        let mut stack = 0;
+        for (place, (&end, placed)) in treelet.ends.iter().zip(placed).enumerate() {
+            if let Some(child) = placed.or_else(|| apart.next()) {
+                node.set_child(place, &self.padded(end), child.link);
+                stack = stack.max(child.stack);
+            }
+        }
         for octant in 0..8 {
             node.set_order(octant, &treelet.far_to_near(octant));
         }
-        let mut stack = 0;
-        for (place, &end) in treelet.ends.iter().enumerate() {
-            let bounds = self.padded(&self.boxes[end as usize]);
-            let child = match self.tree.nodes()[end as usize].kind() {
-                NodeKind::Leaf { .. } => self.place_leaf(self.tree.leaf_primitives(end), &bounds),
-                NodeKind::Inner { .. } => self.place_node(end)?,
-            };
-            node.set_child(place, &bounds, child.link);
-            stack = stack.max(child.stack);
-        }
-        self.arena.set_node(link, node);
-        let stack = stack + treelet.ends.len().saturating_sub(1);
-        (!self.arena.is_full()).then_some(Placed { link, stack })
+        place.put(node);
+        Placed { link, stack: stack + treelet.ends.len().saturating_sub(1) }
     }
 
     /// Places the triangles of a leaf; too many for one link below a node of their own.
-    fn place_leaf(&mut self, ids: &[u32], bounds: &Aabb<3>) -> Placed {
-        const MOST: usize = Link::MOST_BLOCKS * TriangleBlock::WIDTH;
-        if ids.len() <= MOST {
+    fn place_leaf(&self, ids: &[u32], bounds: &Aabb<3>, room: &mut Room<'_>) -> Placed {
+        let Some(part) = part_of_leaf(ids.len()) else {
             let triangle = |&id: &u32| (id, self.mesh.corners(id));
             let blocks = ids.chunks(TriangleBlock::WIDTH);
             let blocks = blocks.map(|ids| TriangleBlock::new(ids.iter().map(triangle)));
-            return Placed { link: self.arena.push_leaf(blocks), stack: 0 };
-        }
-        let link = self.arena.reserve_node();
+            return Placed { link: room.put_leaf(blocks), stack: 0 };
+        };
+        let (link, place) = room.take_node();
         let mut node = WideNode::EMPTY;
         let mut stack = 0;
-        let part = ids.len().div_ceil(MOST).div_ceil(WideNode::WIDTH) * MOST;
         for (place, ids) in ids.chunks(part).enumerate() {
-            let child = self.place_leaf(ids, bounds);
+            let child = self.place_leaf(ids, bounds, room);
             node.set_child(place, bounds, child.link);
             stack = stack.max(child.stack);
         }
-        self.arena.set_node(link, node);
+        place.put(node);
         Placed { link, stack: stack + WideNode::WIDTH - 1 }
     }
 
-    /// Moves the faces outward by the pad at least.
-    fn padded(&self, bounds: &Aabb<3>) -> Aabb<3> {
+    /// The box of a node, its faces moved outward by the pad at least.
+    fn padded(&self, node: u32) -> Aabb<3> {
+        let bounds = &self.boxes[node as usize];
         Aabb {
             min: bounds.min.map(|x| ((f64::from(x) - self.pad) as f32).next_down()),
             max: bounds.max.map(|x| ((f64::from(x) + self.pad) as f32).next_up()),
