@@ -224,9 +224,16 @@ impl<P, S> Build<'_, P, S> {
     {
         let [(below, count_below), (above, count_above)] = children;
         if count_below.max(count_above) > LARGE {
-            // A node this large has the workspace for itself.
-            let references_below = std::mem::take(&mut workspace.distribution.below);
-            let references_above = std::mem::take(&mut workspace.references);
+            // A node this large has the workspace for itself, and leaves nothing in it: the children
+            // may take long, and should hold no more than they must.
+            let used = std::mem::replace(workspace, Workspace::new(Vec::new()));
+            workspace.done = used.done;
+            let (references_below, mut references_above) =
+                (used.distribution.below, used.references);
+            if references_above.capacity() > 2 * count_above {
+                references_above.shrink_to_fit();
+            }
+            drop((used.distribution.fates, used.distribution.clipped, used.scratch, used.spare));
             let mut upper_tree = Subtree::new(self.keep_boxes, count_above);
             let (lower, upper) = join(
                 || self.build_apart(below, references_below, limit, tree),

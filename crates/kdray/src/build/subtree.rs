@@ -37,10 +37,10 @@ pub(super) struct Place {
 impl<const K: usize> Subtree<K> {
     /// An empty one over `count` references.
     pub(super) fn new(keeps_boxes: bool, count: usize) -> Self {
-        // A guess that spares most of the copies when lists grow.
+        // Room for what most trees need. Lists that grow from nothing are copied ten times.
         let room = count.min(1 << 12);
-        let boxes = Vec::with_capacity(if keeps_boxes { room } else { 0 });
-        let (nodes, references) = (Vec::with_capacity(room), Vec::with_capacity(2 * room));
+        let boxes = Vec::with_capacity(if keeps_boxes { room / 2 } else { 0 });
+        let (nodes, references) = (Vec::with_capacity(room / 2), Vec::with_capacity(room));
         Self { pieces: vec![Piece { nodes, references, boxes }], keeps_boxes, count: 0 }
     }
 
