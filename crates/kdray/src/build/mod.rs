@@ -6,11 +6,13 @@
 //! is a choice of all that for a purpose.
 //!
 //! The tree is the same bit for bit on every run and for any number of threads. What a build may
-//! take is bounded: leaves list at most [`BuildOptions::reference_quota`] entries together.
+//! take is bounded: leaves list at most [`BuildOptions::reference_quota`] entries together, and
+//! what is expected to take more memory than [`BuildOptions::memory_limit`] is refused.
 
 mod distribute;
 mod error;
 mod median;
+mod memory;
 mod middle;
 mod options;
 pub(crate) mod parallel;
@@ -91,6 +93,7 @@ impl<const K: usize> KdTree<K> {
         let progress = &Progress::new(progress);
         let cost = options.cost;
         cost.check()?;
+        options.check_memory(options.peak_bytes(primitives.count()))?;
         macro_rules! build {
             ($strategy:expr) => {
                 Build { primitives, strategy: &$strategy, options, progress, keep_boxes }.run()

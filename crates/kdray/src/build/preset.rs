@@ -48,8 +48,14 @@ impl Preset {
             Self::Balanced => (SahBuilder::Binned { sweep_below: 64 }, 16),
             Self::Best => (SahBuilder::Sweep, 4),
         };
-        let (strategy, cost) = (Strategy::Sah, CostModel::BLOCKS_OF_8);
-        BuildOptions { strategy, cost, sah_builder, leaf_size, prune: true, max_depth: None }
+        let settings = BuildOptions::for_strategy(Strategy::Sah);
+        BuildOptions {
+            cost: CostModel::BLOCKS_OF_8,
+            sah_builder,
+            leaf_size,
+            prune: true,
+            ..settings
+        }
     }
 }
 

@@ -133,9 +133,9 @@ fn split_part<const K: usize>(
 /// Makes `bounds` hold a point, too.
 #[inline]
 fn include<const K: usize>(bounds: &mut Aabb<K>, point: &[f32; K]) {
-    for k in 0..K {
-        bounds.min[k] = if point[k] < bounds.min[k] { point[k] } else { bounds.min[k] };
-        bounds.max[k] = if point[k] > bounds.max[k] { point[k] } else { bounds.max[k] };
+    for ((min, max), &x) in bounds.min.iter_mut().zip(&mut bounds.max).zip(point) {
+        *min = if x < *min { x } else { *min };
+        *max = if x > *max { x } else { *max };
     }
 }
 
@@ -151,10 +151,9 @@ impl<const K: usize> Extent<K> {
     /// Makes it hold what is as near to a position as `error`, too.
     #[inline]
     fn include(&mut self, position: &[f64; K], error: f64) {
-        for k in 0..K {
-            let (low, high) = (position[k] - error, position[k] + error);
-            self.min[k] = if low < self.min[k] { low } else { self.min[k] };
-            self.max[k] = if high > self.max[k] { high } else { self.max[k] };
+        for ((min, max), &x) in self.min.iter_mut().zip(&mut self.max).zip(position) {
+            *min = if x - error < *min { x - error } else { *min };
+            *max = if x + error > *max { x + error } else { *max };
         }
     }
 

@@ -122,6 +122,11 @@ impl NodeRoom<'_> {
 }
 
 impl Arena {
+    /// How many bytes an arena of so many lines takes.
+    pub(super) fn bytes_of(lines: usize) -> usize {
+        lines * size_of::<Line>()
+    }
+
     /// An arena of so many lines; `None` if they are too many to be linked.
     pub(super) fn new(lines: usize) -> Option<Self> {
         (lines <= Link::MOST_LINES).then(|| Self { lines: zeroed_vec(lines) })

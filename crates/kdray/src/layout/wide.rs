@@ -5,6 +5,7 @@ use super::collapse::Treelet;
 use super::plan::{Plan, part_of_leaf};
 use super::{TriangleBlock, WideNode};
 use crate::build::parallel::map_all;
+use crate::build::{BuildError, BuildOptions};
 use crate::geometry::Aabb;
 use crate::primitives::TriangleMesh;
 use crate::tree::{KdTree, NodeKind};
@@ -45,17 +46,30 @@ struct Placer<'a> {
 
 impl WideTree {
     /// The wide form of `tree`, which is one over `mesh`; `boxes` are those around the parts of the
-    /// triangles that are listed below each node. `None` if the mesh is larger than 2^32 or smaller than 2^-32,
-    /// for the kernels' numbers are f32, or if the tree is larger than 16 GiB or degenerate.
-    pub(crate) fn new(tree: &KdTree<3>, boxes: &[Aabb<3>], mesh: &TriangleMesh) -> Option<Self> {
-        let reach = reach(tree.bounds())?;
+    /// triangles that are listed below each node. `None` if the mesh is larger than 2^32 or smaller
+    /// than 2^-32, for the kernels' numbers are f32, or if the tree is larger than 16 GiB or
+    /// degenerate.
+    ///
+    /// # Errors
+    /// [`BuildError::Memory`] if both trees would take more than the options allow: how many leaves
+    /// list a triangle is only known now.
+    pub(crate) fn new(
+        tree: &KdTree<3>,
+        boxes: &[Aabb<3>],
+        mesh: &TriangleMesh,
+        options: &BuildOptions,
+    ) -> Result<Option<Self>, BuildError> {
+        let Some(reach) = reach(tree.bounds()) else { return Ok(None) };
         let pad = f64::from(12.0 * ROUNDING * reach);
         let plan = Plan::new(tree, boxes);
-        let mut arena = Arena::new(plan.lines)?;
+        let held =
+            size_of_val(tree.nodes()) + size_of_val(&tree.references[..]) + size_of_val(boxes);
+        options.check_memory((held + Arena::bytes_of(plan.lines)) as u64)?;
+        let Some(mut arena) = Arena::new(plan.lines) else { return Ok(None) };
         let placer = Placer { mesh, tree, boxes, pad };
         let root = placer.place_node(0, &plan.children, &mut arena.room());
         let fits = root.link == Link::ROOT && root.stack + WideNode::WIDTH <= STACK_SIZE;
-        fits.then_some(Self { arena, reach })
+        Ok(fits.then_some(Self { arena, reach }))
     }
 
     /// How far from zero, on any axis, a ray may start so that the boxes' margins cover what

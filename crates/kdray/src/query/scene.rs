@@ -66,7 +66,7 @@ impl Scene {
     ) -> Result<Self, BuildError> {
         let (shapes, wide) = if options.cost.block == TriangleBlock::WIDTH {
             let (tree, boxes) = KdTree::build_with_boxes(&mesh, options, progress)?;
-            let wide = WideTree::new(&tree, &boxes, &mesh);
+            let wide = WideTree::new(&tree, &boxes, &mesh, options)?;
             (ShapeScene::of_tree(mesh, tree), wide)
         } else {
             (ShapeScene::build_with_progress(mesh, options, progress)?, None)
