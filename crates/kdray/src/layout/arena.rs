@@ -5,7 +5,7 @@ use bytemuck::allocation::zeroed_vec;
 use bytemuck::{Pod, Zeroable, must_cast, must_cast_ref};
 
 /// As much as a processor fetches at once.
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 #[repr(C, align(64))]
 struct Line([u32; 16]);
 
@@ -64,7 +64,7 @@ impl Link {
 }
 
 /// Nodes and blocks.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Arena {
     lines: Vec<Line>,
 }
@@ -91,6 +91,11 @@ impl<'a> Room<'a> {
         let taken = Self { lines: taken, first: self.first };
         (self.lines, self.first) = (rest, self.first + lines);
         taken
+    }
+
+    /// Whether all of it was taken.
+    pub(super) fn is_empty(&self) -> bool {
+        self.lines.is_empty()
     }
 
     /// Takes the room of a node, to be filled when its children are placed.

@@ -67,7 +67,9 @@ impl WideTree {
         options.check_memory((held + Arena::bytes_of(plan.lines)) as u64)?;
         let Some(mut arena) = Arena::new(plan.lines) else { return Ok(None) };
         let placer = Placer { mesh, tree, boxes, pad };
-        let root = placer.place_node(0, &plan.children, &mut arena.room());
+        let mut room = arena.room();
+        let root = placer.place_node(0, &plan.children, &mut room);
+        debug_assert!(room.is_empty(), "the plan is wrong");
         let fits = root.link == Link::ROOT && root.stack + WideNode::WIDTH <= STACK_SIZE;
         Ok(fits.then_some(Self { arena, reach }))
     }
@@ -123,9 +125,12 @@ impl Placer<'_> {
                 Some(self.place_node(end, &[], room))
             });
         }
-        let mut apart =
-            map_all(tasks, |(end, plan, mut room)| self.place_node(end, &plan.children, &mut room))
-                .into_iter();
+        let place_apart = |(end, plan, mut room): (u32, &Plan, Room<'_>)| {
+            let placed = self.place_node(end, &plan.children, &mut room);
+            debug_assert!(room.is_empty(), "the plan is wrong");
+            placed
+        };
+        let mut apart = map_all(tasks, place_apart).into_iter();
 
         let mut node = WideNode::EMPTY;
         let mut stack = 0;
@@ -168,6 +173,50 @@ impl Placer<'_> {
         Aabb {
             min: bounds.min.map(|x| ((f64::from(x) - self.pad) as f32).next_down()),
             max: bounds.max.map(|x| ((f64::from(x) + self.pad) as f32).next_up()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::build::Preset;
+    use rand::{RngExt, SeedableRng};
+    use std::ops::ControlFlow;
+
+    fn wide(mesh: &TriangleMesh, options: &BuildOptions) -> WideTree {
+        let go_on = |_| ControlFlow::Continue(());
+        let (tree, boxes) = KdTree::build_with_boxes(mesh, options, &go_on).unwrap();
+        WideTree::new(&tree, &boxes, mesh, options).unwrap().unwrap()
+    }
+
+    fn soup(count: usize) -> TriangleMesh {
+        let mut random = rand_pcg::Pcg64::seed_from_u64(1);
+        let triangles = (0..count).map(|_| {
+            let center = [0; 3].map(|_| random.random::<f32>());
+            [0; 3].map(|_| center.map(|x| x + 0.02 * random.random::<f32>()))
+        });
+        TriangleMesh::from_soup(triangles).unwrap()
+    }
+
+    #[cfg(feature = "rayon")]
+    #[test]
+    fn it_is_the_same_for_any_number_of_threads() {
+        let (mesh, options) = (soup(30_000), BuildOptions::preset(Preset::Fast));
+        let on = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| wide(&mesh, &options).arena)
+        };
+        assert!(on(1) == on(3));
+    }
+
+    #[test]
+    fn leaves_too_large_for_a_link_find_room() {
+        // Plans are checked while the tree is placed.
+        let one_leaf = BuildOptions { leaf_size: usize::MAX, ..BuildOptions::preset(Preset::Best) };
+        for count in [1, 56, 57, 449, 3000] {
+            let tree = wide(&soup(count), &one_leaf);
+            assert!(tree.bytes() >= count.div_ceil(8) * size_of::<TriangleBlock>());
         }
     }
 }
