@@ -44,7 +44,7 @@ pub(crate) enum CliError {
     #[error(transparent)]
     Mesh(#[from] MeshError),
     /// The build of the tree failed or was stopped.
-    #[error(transparent)]
+    #[error("{0}{advice}", advice = advice(.0))]
     Build(#[from] BuildError),
     /// An output file that could not be written.
     #[error("{}: cannot be written: {source}", path.display())]
@@ -108,6 +108,11 @@ impl CliError {
         }
         ExitCode::from(code)
     }
+}
+
+/// What the library cannot say: by which option.
+fn advice(error: &BuildError) -> &'static str {
+    if matches!(error, BuildError::Memory { .. }) { " with --memory-limit" } else { "" }
 }
 
 impl From<WorldError> for CliError {

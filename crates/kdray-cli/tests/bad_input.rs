@@ -216,6 +216,21 @@ fn what_is_not_there_or_no_scene_is_refused() {
 }
 
 #[test]
+fn a_tree_that_does_not_fit_in_memory_is_refused_beforehand() {
+    let folder = Folder::new();
+    folder.file("octahedron.off", OCTAHEDRON);
+    let render = ["render", "octahedron.off", "--size", "8x8", "--samples", "1"];
+    let limited = |limit| folder.kdray(&[&render[..], &["--memory-limit", limit]].concat());
+    limited("1MB").fails(INPUT, &["the build needs about 0.0011 GB", "--memory-limit"]);
+    assert!(folder.names().iter().all(|name| !name.ends_with(".png")), "nothing is left");
+    limited("2MiB").succeeds();
+    limited("none").succeeds();
+    limited("8 giants").fails(USAGE, &["`8 giants` is no size", "such as 8GiB or 500MB, or none"]);
+    let compare = ["compare", "octahedron.off", "--rays", "9", "--memory-limit", "1MB"];
+    folder.kdray(&compare).fails(INPUT, &["memory"]);
+}
+
+#[test]
 fn standard_input_without_end_is_refused_at_its_limit() {
     let folder = Folder::new();
     let arguments = ["stats", "-", "--format", "obj", "--max-bytes", "1000000"];

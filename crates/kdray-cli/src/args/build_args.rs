@@ -1,5 +1,6 @@
 //! How the tree is built.
 
+use super::MemoryLimit;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use kdray::{BuildOptions, Strategy, build::Preset, tree::MAX_DEPTH};
 
@@ -30,12 +31,16 @@ pub(crate) struct BuildArgs {
 #[derive(Clone, Debug, clap::Args)]
 pub(crate) struct LimitArgs {
     /// Do not cut nodes of this many triangles or fewer; without it 1 for sah, 8 for the other
-    /// strategies, 16 or fewer for presets
+    /// strategies, 24 or fewer for presets
     #[arg(long, value_name = "N")]
     pub(crate) leaf_size: Option<usize>,
     /// Do not cut deeper than this; without it 8 + 1.3 log2 of the number of triangles
     #[arg(long, value_name = "N", value_parser = depth)]
     pub(crate) max_depth: Option<usize>,
+    /// Refuse to build a tree that is expected to take more memory than this, such as 8GiB or
+    /// 500MB; `none` for no limit; without it what is available
+    #[arg(long, value_name = "SIZE")]
+    pub(crate) memory_limit: Option<MemoryLimit>,
 }
 
 impl FastBuildArgs {
@@ -66,7 +71,8 @@ impl LimitArgs {
 
     fn apply(&self, options: BuildOptions) -> BuildOptions {
         let leaf_size = self.leaf_size.unwrap_or(options.leaf_size);
-        BuildOptions { leaf_size, max_depth: self.max_depth, ..options }
+        let memory_limit = self.memory_limit.unwrap_or_default().bytes();
+        BuildOptions { leaf_size, max_depth: self.max_depth, memory_limit, ..options }
     }
 }
 

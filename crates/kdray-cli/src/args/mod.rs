@@ -1,11 +1,13 @@
 //! Arguments that several commands share.
 
 mod build_args;
+mod memory;
 mod scene_args;
 mod values;
 mod view_args;
 
 pub(crate) use build_args::{BuildArgs, FastBuildArgs, LimitArgs};
+pub(crate) use memory::MemoryLimit;
 pub(crate) use scene_args::{SceneArgs, SceneFormat};
 pub(crate) use values::{Size, color, numbers};
 pub(crate) use view_args::ViewArgs;

@@ -13,6 +13,23 @@ pub enum BuildError {
     /// The cost model is out of range.
     #[error(transparent)]
     CostModel(#[from] CostModelError),
+    /// More memory would be needed than the options allow.
+    #[error(
+        "the build needs about {} GB of memory, but {} GB is the limit; take the preset fast or \
+         balanced rather than best or a strategy, or raise the limit",
+        gigabytes(*needed),
+        gigabytes(*limit)
+    )]
+    Memory {
+        /// How many bytes it is expected to take: [`BuildOptions::peak_bytes`].
+        ///
+        /// [`BuildOptions::peak_bytes`]: super::BuildOptions::peak_bytes
+        needed: u64,
+        /// [`BuildOptions::memory_limit`].
+        ///
+        /// [`BuildOptions::memory_limit`]: super::BuildOptions::memory_limit
+        limit: u64,
+    },
     /// A primitive's box has a NaN or infinite bound.
     #[error("the bounds of primitive {0} are not finite; mend or drop it")]
     NonFiniteBounds(u32),
@@ -25,4 +42,10 @@ pub enum BuildError {
          limit"
     )]
     TooManyNodes,
+}
+
+/// As people say it, in steps that tell any two apart that matter.
+fn gigabytes(bytes: u64) -> String {
+    let whole = bytes as f64 / 1e9;
+    if whole < 0.095 { format!("{whole:.4}") } else { format!("{whole:.1}") }
 }

@@ -6,14 +6,16 @@
 //! is a choice of all that for a purpose.
 //!
 //! The tree is the same bit for bit on every run and for any number of threads. What a build may
-//! take is bounded: leaves list at most [`BuildOptions::reference_quota`] entries together.
+//! take is bounded: leaves list at most [`BuildOptions::reference_quota`] entries together, and
+//! what is expected to take more memory than [`BuildOptions::memory_limit`] is refused.
 
 mod distribute;
 mod error;
 mod median;
+mod memory;
 mod middle;
 mod options;
-mod parallel;
+pub(crate) mod parallel;
 mod plane;
 mod preset;
 mod progress;
@@ -66,12 +68,13 @@ impl<const K: usize> KdTree<K> {
         Ok(Self::build_all(primitives, options, progress, false)?.0)
     }
 
-    /// Builds the tree, and beside it a box for each of its references: that of the primitive's
-    /// part in the leaf, as clipped on the way down. What stores tight boxes need not clip again.
+    /// Builds the tree, and beside it a box for each of its nodes: around the parts of primitives in
+    /// all leaves below it, as clipped on the way down; empty where there are none. What stores
+    /// tight boxes need not clip again.
     ///
     /// # Errors
     /// See [`BuildError`].
-    pub(crate) fn build_with_bounds(
+    pub(crate) fn build_with_boxes(
         primitives: &impl Primitives<K>,
         options: &BuildOptions,
         progress: &(dyn Fn(BuildProgress) -> ControlFlow<()> + Sync),
@@ -79,20 +82,21 @@ impl<const K: usize> KdTree<K> {
         Self::build_all(primitives, options, progress, true)
     }
 
-    /// Builds the tree and, if `keep_bounds` says so, the boxes of its references.
+    /// Builds the tree and, if `keep_boxes` says so, the boxes of its nodes.
     fn build_all(
         primitives: &impl Primitives<K>,
         options: &BuildOptions,
         progress: &(dyn Fn(BuildProgress) -> ControlFlow<()> + Sync),
-        keep_bounds: bool,
+        keep_boxes: bool,
     ) -> Result<(Self, Vec<Aabb<K>>), BuildError> {
         const { assert!(K >= 1 && K <= 3, "a node has room for three axes") };
         let progress = &Progress::new(progress);
         let cost = options.cost;
         cost.check()?;
+        options.check_memory(options.peak_bytes(primitives.count()))?;
         macro_rules! build {
             ($strategy:expr) => {
-                Build { primitives, strategy: &$strategy, options, progress, keep_bounds }.run()
+                Build { primitives, strategy: &$strategy, options, progress, keep_boxes }.run()
             };
         }
         match (options.strategy, options.sah_builder) {
@@ -112,6 +116,7 @@ impl<const K: usize> KdTree<K> {
 mod tests {
     use super::*;
     use crate::primitives::TriangleMesh;
+    use crate::tree::NodeKind;
     use rand::{RngExt, SeedableRng};
 
     fn soup() -> TriangleMesh {
@@ -124,26 +129,36 @@ mod tests {
     }
 
     #[test]
-    fn bounds_come_with_each_reference() {
+    fn boxes_come_with_each_node() {
         let mesh = soup();
         for options in Preset::ALL.map(BuildOptions::preset) {
             let go_on = |_| ControlFlow::Continue(());
-            let (tree, bounds) = KdTree::build_with_bounds(&mesh, &options, &go_on).unwrap();
+            let (tree, boxes) = KdTree::build_with_boxes(&mesh, &options, &go_on).unwrap();
             assert!(tree == KdTree::build(&mesh, &options).unwrap(), "{options:?}");
-            assert_eq!(bounds.len(), tree.references.len());
-            let mut rest = &bounds[..];
+            assert_eq!(boxes.len(), tree.nodes().len());
+            let near =
+                |a: &[f32; 3], b: &[f32; 3]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-6);
             for cell in tree.cells() {
-                for &id in tree.leaf_primitives(cell.node) {
-                    let found;
-                    (found, rest) = (rest[0], &rest[1..]);
-                    assert_eq!(found.union(&cell.bounds), cell.bounds, "in the cell");
-                    // Looser than the true bounds by rounding at most.
-                    let part = mesh.clipped_bounds(id, &cell.bounds).unwrap_or(found);
-                    let near = |a: &[f32; 3], b: &[f32; 3]| {
-                        a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-6)
-                    };
-                    assert!(near(&found.min, &part.min) && near(&found.max, &part.max));
-                }
+                let found = boxes[cell.node as usize];
+                assert!(
+                    found.is_empty() || found.union(&cell.bounds) == cell.bounds,
+                    "in the cell"
+                );
+                let expected = match tree.nodes()[cell.node as usize].kind() {
+                    NodeKind::Inner { above, .. } => {
+                        boxes[cell.node as usize + 1].union(&boxes[above as usize])
+                    }
+                    NodeKind::Leaf { .. } => {
+                        let parts = tree.leaf_primitives(cell.node).iter();
+                        let parts = parts.filter_map(|&id| mesh.clipped_bounds(id, &cell.bounds));
+                        parts.fold(Aabb::EMPTY, |all, part| all.union(&part))
+                    }
+                };
+                // Looser than the true bounds by rounding at most.
+                assert!(
+                    found == expected
+                        || near(&found.min, &expected.min) && near(&found.max, &expected.max)
+                );
             }
         }
     }

@@ -44,6 +44,9 @@ pub struct BuildOptions {
     pub prune: bool,
     /// No leaf is deeper than this (step 2); `None`: 8 + 1.3·log2 N. At most [`MAX_DEPTH`].
     pub max_depth: Option<usize>,
+    /// A build that is expected to take more bytes than this, by [`peak_bytes`](Self::peak_bytes),
+    /// is refused before it begins; `None`: none is. It changes nothing about the tree.
+    pub memory_limit: Option<u64>,
 }
 
 impl Default for BuildOptions {
@@ -68,7 +71,7 @@ impl BuildOptions {
         let leaf_size = if strategy == Strategy::Sah { 1 } else { 8 };
         let sah_builder = SahBuilder::default();
         let (cost, prune, max_depth) = (CostModel::default(), false, None);
-        Self { strategy, cost, sah_builder, leaf_size, prune, max_depth }
+        Self { strategy, cost, sah_builder, leaf_size, prune, max_depth, memory_limit: None }
     }
 
     /// Good settings for a purpose.

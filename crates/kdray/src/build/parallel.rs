@@ -81,3 +81,19 @@ pub(super) fn map_pieces<T: Send, R: Send>(
 pub(super) fn map_pieces<T, R>(items: &mut [T], size: usize, f: impl Fn(&mut [T]) -> R) -> Vec<R> {
     items.chunks_mut(size).map(f).collect()
 }
+
+/// `f` of all items, in order.
+#[cfg(feature = "rayon")]
+pub(crate) fn map_all<T: Send, R: Send>(items: Vec<T>, f: impl Fn(T) -> R + Sync) -> Vec<R> {
+    use rayon::prelude::*;
+    if items.len() < 2 {
+        return items.into_iter().map(&f).collect();
+    }
+    items.into_par_iter().with_max_len(1).map(&f).collect()
+}
+
+/// `f` of all items, in order.
+#[cfg(not(feature = "rayon"))]
+pub(crate) fn map_all<T, R>(items: Vec<T>, f: impl Fn(T) -> R) -> Vec<R> {
+    items.into_iter().map(f).collect()
+}

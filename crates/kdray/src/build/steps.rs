@@ -66,8 +66,8 @@ pub(super) struct Build<'a, P, S> {
     pub(super) strategy: &'a S,
     pub(super) options: &'a BuildOptions,
     pub(super) progress: &'a Progress<'a>,
-    /// Whether the bounds of the leaves' references are wanted, too.
-    pub(super) keep_bounds: bool,
+    /// Whether the boxes around what is listed below each node are wanted, too.
+    pub(super) keep_boxes: bool,
 }
 
 /// A node that is not yet cut or made a leaf.
@@ -104,7 +104,7 @@ const FUTILE_SPLITS: u32 = 3;
 const LARGE: usize = 1024;
 
 impl<P, S> Build<'_, P, S> {
-    /// Builds the tree; with it come the bounds of its references, if they are wanted.
+    /// Builds the tree; with it come the boxes of its nodes, if they are wanted.
     pub(super) fn run<const K: usize>(&self) -> Result<(KdTree<K>, Vec<Aabb<K>>), BuildError>
     where
         P: Primitives<K>,
@@ -129,11 +129,10 @@ impl<P, S> Build<'_, P, S> {
             kept: Box::new(S::Kept::of_root(&references)),
         };
 
-        let mut tree = Subtree::new(self.keep_bounds);
+        let mut tree = Subtree::new(self.keep_boxes, references.len());
         let limit = self.options.depth_limit(count);
         self.build_apart(root, references, limit, &mut tree)?;
-        let Subtree { nodes, references, bounds, .. } = tree;
-        Ok((KdTree { bounds: cell, nodes, references }, bounds))
+        Ok(tree.finish(cell))
     }
 
     /// Builds a node with a workspace of its own.
@@ -184,7 +183,7 @@ impl<P, S> Build<'_, P, S> {
         let (Some(plane), Some(children)) = (plane, children) else {
             let references = &workspace.references[first..];
             let expected = Expected::of_leaf(&self.options.cost, references);
-            tree.push_leaf(references);
+            tree.push_leaf(references, &expected.tight);
             workspace.references.truncate(first);
             workspace.done += node.weight;
             workspace.spare.push(node.kept);
@@ -201,9 +200,10 @@ impl<P, S> Build<'_, P, S> {
         let cut = Expected::of_inner(cost, &lower, &upper);
         let uncut = cut.if_leaf(cost, count);
         if self.options.prune && uncut.cost <= cut.cost {
-            tree.make_leaf(place);
+            tree.make_leaf(place, &uncut.tight);
             return Ok(uncut);
         }
+        tree.set_box(place, &cut.tight);
         Ok(cut)
     }
 
@@ -224,17 +224,24 @@ impl<P, S> Build<'_, P, S> {
     {
         let [(below, count_below), (above, count_above)] = children;
         if count_below.max(count_above) > LARGE {
-            // A node this large has the workspace for itself.
-            let references_below = std::mem::take(&mut workspace.distribution.below);
-            let references_above = std::mem::take(&mut workspace.references);
-            let mut upper_tree = Subtree::new(self.keep_bounds);
+            // A node this large has the workspace for itself, and leaves nothing in it: the children
+            // may take long, and should hold no more than they must.
+            let used = std::mem::replace(workspace, Workspace::new(Vec::new()));
+            workspace.done = used.done;
+            let (references_below, mut references_above) =
+                (used.distribution.below, used.references);
+            if references_above.capacity() > 2 * count_above {
+                references_above.shrink_to_fit();
+            }
+            drop((used.distribution.fates, used.distribution.clipped, used.scratch, used.spare));
+            let mut upper_tree = Subtree::new(self.keep_boxes, count_above);
             let (lower, upper) = join(
                 || self.build_apart(below, references_below, limit, tree),
                 || self.build_apart(above, references_above, limit, &mut upper_tree),
             );
             let expected = [lower?, upper?];
             tree.close_lower(place, plane.axis, plane.position)?;
-            tree.append(&upper_tree)?;
+            tree.append(upper_tree)?;
             return Ok(expected);
         }
         workspace.references.extend_from_slice(&workspace.distribution.below);

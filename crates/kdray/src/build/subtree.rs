@@ -1,45 +1,77 @@
 //! The nodes and lists of a part of the tree, as they are built.
 
 use super::BuildError;
-use super::reference::{Reference, merge_parts};
+use super::reference::Reference;
 use crate::geometry::Aabb;
-use crate::tree::{CostModel, Node, NodeKind};
+use crate::tree::{CostModel, KdTree, Node, NodeKind};
 
-/// Nodes in depth-first order and the lists of their leaves, numbered from zero.
+/// Nodes in depth-first order and the lists of their leaves, in pieces that were built apart.
+///
+/// Until [`finish`](Self::finish) an inner node says how far behind it its upper child stands, and a
+/// leaf says nothing of where its list begins. So pieces that follow each other need not be copied.
 pub(super) struct Subtree<const K: usize> {
-    pub(super) nodes: Vec<Node>,
-    pub(super) references: Vec<u32>,
-    /// The bounds of each reference's part in its leaf, if they are kept.
-    pub(super) bounds: Vec<Aabb<K>>,
-    keeps_bounds: bool,
+    /// At least one; the last is open.
+    pieces: Vec<Piece<K>>,
+    keeps_boxes: bool,
+    /// How many nodes there are.
+    count: usize,
+}
+
+struct Piece<const K: usize> {
+    nodes: Vec<Node>,
+    references: Vec<u32>,
+    /// The box around all that each node lists, if they are kept.
+    boxes: Vec<Aabb<K>>,
 }
 
 /// Where an inner node stands whose children are being built, and where their lists begin.
 #[derive(Clone, Copy)]
 pub(super) struct Place {
+    piece: usize,
     node: usize,
     reference: usize,
+    /// How many nodes stand before it.
+    before: usize,
 }
 
 impl<const K: usize> Subtree<K> {
-    pub(super) fn new(keeps_bounds: bool) -> Self {
-        let (nodes, references, bounds) = (Vec::new(), Vec::new(), Vec::new());
-        Self { nodes, references, bounds, keeps_bounds }
+    /// An empty one over `count` references.
+    pub(super) fn new(keeps_boxes: bool, count: usize) -> Self {
+        // Room for what most trees need. Lists that grow from nothing are copied ten times.
+        let room = count.min(1 << 12);
+        let boxes = Vec::with_capacity(if keeps_boxes { room / 2 } else { 0 });
+        let (nodes, references) = (Vec::with_capacity(room / 2), Vec::with_capacity(room));
+        Self { pieces: vec![Piece { nodes, references, boxes }], keeps_boxes, count: 0 }
     }
 
-    /// Adds a leaf.
-    pub(super) fn push_leaf(&mut self, references: &[Reference<K>]) {
-        self.nodes.push(Node::leaf(self.references.len() as u32, references.len() as u32));
-        self.references.extend(references.iter().map(|reference| reference.id));
-        if self.keeps_bounds {
-            self.bounds.extend(references.iter().map(|reference| reference.bounds));
+    fn open(&mut self) -> &mut Piece<K> {
+        self.pieces.last_mut().expect("there is a piece at any time")
+    }
+
+    /// Adds a leaf; `tight` is the box around all that it lists.
+    pub(super) fn push_leaf(&mut self, references: &[Reference<K>], tight: &Aabb<K>) {
+        let ids = references.iter().map(|reference| reference.id);
+        self.open().references.extend(ids);
+        self.push_node(Node::leaf(0, references.len() as u32), tight);
+    }
+
+    fn push_node(&mut self, node: Node, tight: &Aabb<K>) {
+        let keeps_boxes = self.keeps_boxes;
+        let piece = self.open();
+        piece.nodes.push(node);
+        if keeps_boxes {
+            piece.boxes.push(*tight);
         }
+        self.count += 1;
     }
 
     /// Keeps the place of an inner node, until its children are there.
     pub(super) fn reserve_inner(&mut self) -> Place {
-        self.nodes.push(Node::leaf(0, 0));
-        Place { node: self.nodes.len() - 1, reference: self.references.len() }
+        let (piece, before) = (self.pieces.len() - 1, self.count);
+        let Piece { nodes, references, .. } = self.open();
+        let place = Place { piece, node: nodes.len(), reference: references.len(), before };
+        self.push_node(Node::leaf(0, 0), &Aabb::EMPTY);
+        place
     }
 
     /// Makes the node at `place` one whose upper child comes next.
@@ -49,52 +81,73 @@ impl<const K: usize> Subtree<K> {
         axis: usize,
         split: f32,
     ) -> Result<(), BuildError> {
-        let above = u32::try_from(self.nodes.len()).unwrap_or(u32::MAX);
-        if above > Node::MAX_INDEX {
+        if self.count > Node::MAX_INDEX as usize {
             return Err(BuildError::TooManyNodes);
         }
-        self.nodes[place.node] = Node::inner(axis, split, above);
+        let distance = (self.count - place.before) as u32;
+        self.pieces[place.piece].nodes[place.node] = Node::inner(axis, split, distance);
         Ok(())
+    }
+
+    /// Says what the box is around all that is listed below the node at `place`.
+    pub(super) fn set_box(&mut self, place: Place, tight: &Aabb<K>) {
+        if self.keeps_boxes {
+            self.pieces[place.piece].boxes[place.node] = *tight;
+        }
     }
 
     /// Makes a leaf of the node at `place` and all below it, which end this subtree. It lists what
     /// they listed, each primitive once, by rising id.
-    pub(super) fn make_leaf(&mut self, place: Place) {
-        self.nodes.truncate(place.node);
-        if self.keeps_bounds {
-            let ids = self.references.drain(place.reference..);
-            let parts = ids.zip(self.bounds.drain(place.reference..));
-            let mut parts: Vec<_> = parts.map(|(id, bounds)| Reference { id, bounds }).collect();
-            merge_parts(&mut parts, 0);
-            return self.push_leaf(&parts);
-        }
-        self.references[place.reference..].sort_unstable();
+    pub(super) fn make_leaf(&mut self, place: Place, tight: &Aabb<K>) {
+        let behind = self.pieces.split_off(place.piece + 1);
+        self.count = place.before;
+        let piece = self.open();
+        piece.nodes.truncate(place.node);
+        piece.boxes.truncate(place.node);
+        behind.iter().for_each(|other| piece.references.extend_from_slice(&other.references));
+        piece.references[place.reference..].sort_unstable();
         let mut end = place.reference;
-        for next in place.reference..self.references.len() {
-            let id = self.references[next];
-            if end == place.reference || self.references[end - 1] != id {
-                self.references[end] = id;
+        for next in place.reference..piece.references.len() {
+            let id = piece.references[next];
+            if end == place.reference || piece.references[end - 1] != id {
+                piece.references[end] = id;
                 end += 1;
             }
         }
-        self.references.truncate(end);
-        let count = end - place.reference;
-        self.nodes.push(Node::leaf(place.reference as u32, count as u32));
+        piece.references.truncate(end);
+        self.push_node(Node::leaf(0, (end - place.reference) as u32), tight);
     }
 
     /// Adds a subtree that was built apart behind this one.
-    pub(super) fn append(&mut self, other: &Self) -> Result<(), BuildError> {
-        let (nodes, references) = (self.nodes.len() as u32, self.references.len() as u32);
-        if self.nodes.len() + other.nodes.len() > Node::MAX_INDEX as usize {
+    pub(super) fn append(&mut self, other: Self) -> Result<(), BuildError> {
+        self.count += other.count;
+        if self.count > Node::MAX_INDEX as usize {
             return Err(BuildError::TooManyNodes);
         }
-        self.nodes.extend(other.nodes.iter().map(|node| match node.kind() {
-            NodeKind::Inner { axis, split, above } => Node::inner(axis, split, above + nodes),
-            NodeKind::Leaf { first, count } => Node::leaf(first + references, count),
-        }));
-        self.references.extend_from_slice(&other.references);
-        self.bounds.extend_from_slice(&other.bounds);
+        self.pieces.extend(other.pieces);
         Ok(())
+    }
+
+    /// The tree in one piece, of which this is all, and the boxes of its nodes.
+    pub(super) fn finish(self, bounds: Aabb<K>) -> (KdTree<K>, Vec<Aabb<K>>) {
+        let sum = |length: fn(&Piece<K>) -> usize| self.pieces.iter().map(length).sum();
+        let mut nodes = Vec::with_capacity(self.count);
+        let mut references = Vec::with_capacity(sum(|piece| piece.references.len()));
+        let mut boxes = Vec::with_capacity(sum(|piece| piece.boxes.len()));
+        let mut first = 0;
+        for piece in self.pieces {
+            let start = nodes.len() as u32;
+            nodes.extend((start..).zip(piece.nodes).map(|(index, node)| match node.kind() {
+                NodeKind::Inner { axis, split, above } => Node::inner(axis, split, index + above),
+                NodeKind::Leaf { count, .. } => {
+                    first += count;
+                    Node::leaf(first - count, count)
+                }
+            }));
+            references.extend_from_slice(&piece.references);
+            boxes.extend_from_slice(&piece.boxes);
+        }
+        (KdTree { bounds, nodes, references }, boxes)
     }
 }
 
@@ -103,7 +156,7 @@ impl<const K: usize> Subtree<K> {
 #[derive(Clone, Copy)]
 pub(super) struct Expected<const K: usize> {
     pub(super) cost: f64,
-    tight: Aabb<K>,
+    pub(super) tight: Aabb<K>,
 }
 
 impl<const K: usize> Expected<K> {

@@ -1,14 +1,15 @@
 //! The memory of a wide tree: nodes and blocks between each other, in lines of 64 bytes.
 
 use super::{TriangleBlock, WideNode};
+use bytemuck::allocation::zeroed_vec;
 use bytemuck::{Pod, Zeroable, must_cast, must_cast_ref};
 
 /// As much as a processor fetches at once.
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 #[repr(C, align(64))]
 struct Line([u32; 16]);
 
-const NODE_LINES: usize = size_of::<WideNode>() / size_of::<Line>();
+pub(super) const NODE_LINES: usize = size_of::<WideNode>() / size_of::<Line>();
 const BLOCK_LINES: usize = size_of::<TriangleBlock>() / size_of::<Line>();
 
 /// Where a child of a wide node lies, in four bytes: a node, or the blocks of a leaf.
@@ -72,40 +73,82 @@ impl Link {
 }
 
 /// Nodes and blocks.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Arena {
     lines: Vec<Line>,
 }
 
-impl Arena {
-    /// Makes room for a node, to be filled when its children are placed.
-    pub(super) fn reserve_node(&mut self) -> Link {
-        let line = self.lines.len();
-        self.lines.resize(line + NODE_LINES, Line::zeroed());
-        Link(line as u32)
+/// Lines of an arena that are yet to be filled, from the first on.
+pub(super) struct Room<'a> {
+    lines: &'a mut [Line],
+    /// The number of the first line in the arena.
+    first: usize,
+}
+
+/// The place of a node whose children are being placed.
+pub(super) struct NodeRoom<'a>(&'a mut [Line]);
+
+/// How many lines so many blocks take.
+pub(super) fn leaf_lines(blocks: usize) -> usize {
+    blocks * BLOCK_LINES
+}
+
+impl<'a> Room<'a> {
+    /// Takes the first lines away.
+    pub(super) fn take(&mut self, lines: usize) -> Self {
+        let (taken, rest) = std::mem::take(&mut self.lines).split_at_mut(lines);
+        let taken = Self { lines: taken, first: self.first };
+        (self.lines, self.first) = (rest, self.first + lines);
+        taken
     }
 
-    pub(super) fn set_node(&mut self, link: Link, node: WideNode) {
-        let lines: [Line; NODE_LINES] = must_cast(node);
-        self.lines[link.line()..][..NODE_LINES].copy_from_slice(&lines);
+    /// Whether all of it was taken.
+    pub(super) fn is_empty(&self) -> bool {
+        self.lines.is_empty()
     }
 
-    /// Adds the blocks of a leaf.
-    pub(super) fn push_leaf(&mut self, blocks: impl IntoIterator<Item = TriangleBlock>) -> Link {
-        let line = self.lines.len();
-        for block in blocks {
-            let lines: [Line; BLOCK_LINES] = must_cast(block);
-            self.lines.extend_from_slice(&lines);
+    /// Takes the room of a node, to be filled when its children are placed.
+    pub(super) fn take_node(&mut self) -> (Link, NodeRoom<'a>) {
+        let Room { lines, first } = self.take(NODE_LINES);
+        (Link(first as u32), NodeRoom(lines))
+    }
+
+    /// Puts the blocks of a leaf.
+    pub(super) fn put_leaf(
+        &mut self,
+        blocks: impl ExactSizeIterator<Item = TriangleBlock>,
+    ) -> Link {
+        let count = blocks.len();
+        let Room { lines, first } = self.take(leaf_lines(count));
+        for (place, block) in lines.chunks_exact_mut(BLOCK_LINES).zip(blocks) {
+            let block: [Line; BLOCK_LINES] = must_cast(block);
+            place.copy_from_slice(&block);
         }
-        Link::leaf(line, (self.lines.len() - line) / BLOCK_LINES)
+        Link::leaf(first, count)
+    }
+}
+
+impl NodeRoom<'_> {
+    pub(super) fn put(self, node: WideNode) {
+        let node: [Line; NODE_LINES] = must_cast(node);
+        self.0.copy_from_slice(&node);
+    }
+}
+
+impl Arena {
+    /// How many bytes an arena of so many lines takes.
+    pub(super) fn bytes_of(lines: usize) -> usize {
+        lines * size_of::<Line>()
     }
 
-    pub(super) fn is_full(&self) -> bool {
-        self.lines.len() > Link::MOST_LINES
+    /// An arena of so many lines; `None` if they are too many to be linked.
+    pub(super) fn new(lines: usize) -> Option<Self> {
+        (lines <= Link::MOST_LINES).then(|| Self { lines: zeroed_vec(lines) })
     }
 
-    pub(super) fn shrink_to_fit(&mut self) {
-        self.lines.shrink_to_fit();
+    /// All of it.
+    pub(super) fn room(&mut self) -> Room<'_> {
+        Room { lines: &mut self.lines, first: 0 }
     }
 
     pub(super) fn bytes(&self) -> usize {

@@ -5,57 +5,94 @@ use crate::geometry::Aabb;
 use crate::tree::{KdTree, NodeKind};
 use arrayvec::ArrayVec;
 
+/// Places of children in a wide node.
+type Places = ArrayVec<u8, { WideNode::WIDTH }>;
+
 /// The upper part of a subtree: its root, cut open until eight nodes are left.
-pub(super) struct Treelet<'a> {
-    tree: &'a KdTree<3>,
-    root: u32,
+#[derive(Default)]
+pub(super) struct Treelet {
     /// The nodes that are not cut open and not empty.
     pub(super) ends: ArrayVec<u32, { WideNode::WIDTH }>,
+    /// What was cut open, parents before their children.
+    cuts: ArrayVec<Cut, { WideNode::WIDTH }>,
 }
 
-impl<'a> Treelet<'a> {
+/// A node that was cut open; neither child is empty.
+struct Cut {
+    node: u32,
+    axis: usize,
+    lower: u32,
+    upper: u32,
+}
+
+impl Treelet {
     /// Cuts open, again and again, the inner node that a ray meets most likely: that of the
     /// largest tight box. `boxes` are those of the tree's nodes.
-    pub(super) fn new(tree: &'a KdTree<3>, boxes: &[Aabb<3>], root: u32) -> Self {
-        let is_inner =
-            |node: u32| matches!(tree.nodes()[node as usize].kind(), NodeKind::Inner { .. });
-        let mut ends = ArrayVec::new();
-        let add = |ends: &mut ArrayVec<u32, 8>, node: u32| {
-            if !boxes[node as usize].is_empty() {
-                ends.push(node);
-            }
-        };
-        add(&mut ends, root);
-        while !ends.is_full() {
-            let surface = |&(_, &node): &(usize, &u32)| boxes[node as usize].half_surface();
-            let inner = ends.iter().enumerate().filter(|&(_, &node)| is_inner(node));
-            let largest = inner.max_by(|a, b| surface(a).total_cmp(&surface(b)));
-            let Some((place, &node)) = largest else { break };
-            ends.remove(place);
-            if let NodeKind::Inner { above, .. } = tree.nodes()[node as usize].kind() {
-                add(&mut ends, node + 1);
-                add(&mut ends, above);
+    pub(super) fn new(tree: &KdTree<3>, boxes: &[Aabb<3>], root: u32) -> Self {
+        let mut treelet = Self::default();
+        let mut open = ArrayVec::<(f64, Cut), { WideNode::WIDTH }>::new();
+        treelet.add(tree, boxes, root, &mut open);
+        while treelet.ends.len() < WideNode::WIDTH {
+            let sizes = open.iter().map(|&(surface, _)| surface).enumerate();
+            let Some((largest, _)) = sizes.max_by(|a, b| a.1.total_cmp(&b.1)) else { break };
+            let (_, cut) = open.remove(largest);
+            treelet.ends.retain(|&mut end| end != cut.node);
+            treelet.add(tree, boxes, cut.lower, &mut open);
+            treelet.add(tree, boxes, cut.upper, &mut open);
+            treelet.cuts.push(cut);
+        }
+        treelet
+    }
+
+    /// Adds an end unless it is empty, and how it would be cut if it is an inner node.
+    fn add(
+        &mut self,
+        tree: &KdTree<3>,
+        boxes: &[Aabb<3>],
+        node: u32,
+        open: &mut ArrayVec<(f64, Cut), { WideNode::WIDTH }>,
+    ) {
+        let Some(node) = filled(tree, boxes, node) else { return };
+        self.ends.push(node);
+        if let NodeKind::Inner { axis, above, .. } = tree.nodes()[node as usize].kind() {
+            let children = (filled(tree, boxes, node + 1), filled(tree, boxes, above));
+            if let (Some(lower), Some(upper)) = children {
+                open.push((boxes[node as usize].half_surface(), Cut { node, axis, lower, upper }));
             }
         }
-        Self { tree, root, ends }
     }
 
     /// The places of the ends, farthest first, for rays whose direction is in `octant`.
-    pub(super) fn far_to_near(&self, octant: usize) -> ArrayVec<u8, { WideNode::WIDTH }> {
-        let mut places = ArrayVec::new();
-        self.visit(self.root, octant, &mut places);
+    pub(super) fn far_to_near(&self, octant: usize) -> Places {
+        let root = self.cuts.first().map(|cut| cut.node).or(self.ends.first().copied());
+        let mut waiting = ArrayVec::<u32, { WideNode::WIDTH }>::from_iter(root);
+        let mut places = Places::new();
+        while let Some(node) = waiting.pop() {
+            match self.cuts.iter().find(|cut| cut.node == node) {
+                Some(cut) if octant >> cut.axis & 1 == 1 => waiting.extend([cut.upper, cut.lower]),
+                Some(cut) => waiting.extend([cut.lower, cut.upper]),
+                None => {
+                    let place = self.ends.iter().position(|&end| end == node);
+                    places.extend(place.map(|place| place as u8));
+                }
+            }
+        }
         places
     }
+}
 
-    fn visit(&self, node: u32, octant: usize, places: &mut ArrayVec<u8, { WideNode::WIDTH }>) {
-        if let Some(place) = self.ends.iter().position(|&end| end == node) {
-            places.push(place as u8);
-        } else if let NodeKind::Inner { axis, above, .. } = self.tree.nodes()[node as usize].kind()
-        {
-            let is_negative = octant >> axis & 1 == 1;
-            let [first, then] = if is_negative { [node + 1, above] } else { [above, node + 1] };
-            self.visit(first, octant, places);
-            self.visit(then, octant, places);
+/// The node itself, or the uppermost one below it that holds the same and has no empty child; `None`
+/// if it is empty.
+fn filled(tree: &KdTree<3>, boxes: &[Aabb<3>], mut node: u32) -> Option<u32> {
+    if boxes[node as usize].is_empty() {
+        return None;
+    }
+    while let NodeKind::Inner { above, .. } = tree.nodes()[node as usize].kind() {
+        let lower = node + 1;
+        match [lower, above].map(|child| boxes[child as usize].is_empty()) {
+            [false, false] => break,
+            [lower_is_empty, _] => node = if lower_is_empty { above } else { lower },
         }
     }
+    Some(node)
 }

@@ -7,7 +7,7 @@ mod arena;
 mod block;
 mod collapse;
 mod node;
-mod tight;
+mod plan;
 mod wide;
 
 pub(crate) use arena::Link;

@@ -1,12 +1,15 @@
 //! The wide tree.
 
-use super::arena::{Arena, Link};
+use super::arena::{Arena, Link, Room};
 use super::collapse::Treelet;
-use super::tight::tight_boxes;
+use super::plan::{Plan, part_of_leaf};
 use super::{TriangleBlock, WideNode};
+use crate::build::parallel::map_all;
+use crate::build::{BuildError, BuildOptions};
 use crate::geometry::Aabb;
 use crate::primitives::TriangleMesh;
 use crate::tree::{KdTree, NodeKind};
+use arrayvec::ArrayVec;
 
 /// Room on the kernels' stacks. A tree that needs more is not made wide.
 pub(crate) const STACK_SIZE: usize = 128;
@@ -36,24 +39,39 @@ struct Placed {
 struct Placer<'a> {
     mesh: &'a TriangleMesh,
     tree: &'a KdTree<3>,
-    boxes: Vec<Aabb<3>>,
+    /// Those of the tree's nodes.
+    boxes: &'a [Aabb<3>],
     pad: f64,
-    arena: Arena,
 }
 
 impl WideTree {
-    /// The wide form of `tree`, which is one over `mesh`; `bounds` are those of the parts of the
-    /// triangles that its leaves list. `None` if the mesh is larger than 2^32 or smaller than 2^-32,
-    /// for the kernels' numbers are f32, or if the tree is larger than 16 GiB or degenerate.
-    pub(crate) fn new(tree: &KdTree<3>, bounds: &[Aabb<3>], mesh: &TriangleMesh) -> Option<Self> {
-        let reach = reach(tree.bounds())?;
+    /// The wide form of `tree`, which is one over `mesh`; `boxes` are those around the parts of the
+    /// triangles that are listed below each node. `None` if the mesh is larger than 2^32 or smaller
+    /// than 2^-32, for the kernels' numbers are f32, or if the tree is larger than 16 GiB or
+    /// degenerate.
+    ///
+    /// # Errors
+    /// [`BuildError::Memory`] if both trees would take more than the options allow: how many leaves
+    /// list a triangle is only known now.
+    pub(crate) fn new(
+        tree: &KdTree<3>,
+        boxes: &[Aabb<3>],
+        mesh: &TriangleMesh,
+        options: &BuildOptions,
+    ) -> Result<Option<Self>, BuildError> {
+        let Some(reach) = reach(tree.bounds()) else { return Ok(None) };
         let pad = f64::from(12.0 * ROUNDING * reach);
-        let boxes = tight_boxes(tree, bounds);
-        let mut placer = Placer { mesh, tree, boxes, pad, arena: Arena::default() };
-        let root = placer.place_node(0)?;
-        placer.arena.shrink_to_fit();
+        let plan = Plan::new(tree, boxes);
+        let held =
+            size_of_val(tree.nodes()) + size_of_val(&tree.references[..]) + size_of_val(boxes);
+        options.check_memory((held + Arena::bytes_of(plan.lines)) as u64)?;
+        let Some(mut arena) = Arena::new(plan.lines) else { return Ok(None) };
+        let placer = Placer { mesh, tree, boxes, pad };
+        let mut room = arena.room();
+        let root = placer.place_node(0, &plan.children, &mut room);
+        debug_assert!(room.is_empty(), "the plan is wrong");
         let fits = root.link == Link::ROOT && root.stack + WideNode::WIDTH <= STACK_SIZE;
-        fits.then_some(Self { arena: placer.arena, reach })
+        Ok(fits.then_some(Self { arena, reach }))
     }
 
     /// How far from zero, on any axis, a ray may start so that the boxes' margins cover what
@@ -89,56 +107,116 @@ fn reach(bounds: &Aabb<3>) -> Option<f32> {
 }
 
 impl Placer<'_> {
-    /// Places a node of the binary tree as a wide one, then all below it.
-    fn place_node(&mut self, root: u32) -> Option<Placed> {
-        let treelet = Treelet::new(self.tree, &self.boxes, root);
-        let link = self.arena.reserve_node();
+    /// Places a node of the binary tree as a wide one, then all below it: those of its children that
+    /// are nodes at once if there are `plans` for them.
+    fn place_node(&self, root: u32, plans: &[Plan], room: &mut Room<'_>) -> Placed {
+        let treelet = Treelet::new(self.tree, self.boxes, root);
+        let (link, place) = room.take_node();
+        let mut placed = ArrayVec::<_, { WideNode::WIDTH }>::new();
+        let (mut tasks, mut plans) = (Vec::new(), plans.iter());
+        for &end in &treelet.ends {
+            let is_leaf = matches!(self.tree.nodes()[end as usize].kind(), NodeKind::Leaf { .. });
+            placed.push(if is_leaf {
+                Some(self.place_leaf(self.tree.leaf_primitives(end), &self.padded(end), room))
+            } else if let Some(plan) = plans.next() {
+                tasks.push((end, plan, room.take(plan.lines)));
+                None
+            } else {
+                Some(self.place_node(end, &[], room))
+            });
+        }
+        let place_apart = |(end, plan, mut room): (u32, &Plan, Room<'_>)| {
+            let placed = self.place_node(end, &plan.children, &mut room);
+            debug_assert!(room.is_empty(), "the plan is wrong");
+            placed
+        };
+        let mut apart = map_all(tasks, place_apart).into_iter();
+
         let mut node = WideNode::EMPTY;
+        let mut stack = 0;
+        for (place, (&end, placed)) in treelet.ends.iter().zip(placed).enumerate() {
+            if let Some(child) = placed.or_else(|| apart.next()) {
+                node.set_child(place, &self.padded(end), child.link);
+                stack = stack.max(child.stack);
+            }
+        }
         for octant in 0..8 {
             node.set_order(octant, &treelet.far_to_near(octant));
         }
-        let mut stack = 0;
-        for (place, &end) in treelet.ends.iter().enumerate() {
-            let bounds = self.padded(&self.boxes[end as usize]);
-            let child = match self.tree.nodes()[end as usize].kind() {
-                NodeKind::Leaf { .. } => self.place_leaf(self.tree.leaf_primitives(end), &bounds),
-                NodeKind::Inner { .. } => self.place_node(end)?,
-            };
-            node.set_child(place, &bounds, child.link);
-            stack = stack.max(child.stack);
-        }
-        self.arena.set_node(link, node);
-        let stack = stack + treelet.ends.len().saturating_sub(1);
-        (!self.arena.is_full()).then_some(Placed { link, stack })
+        place.put(node);
+        Placed { link, stack: stack + treelet.ends.len().saturating_sub(1) }
     }
 
     /// Places the triangles of a leaf; too many for one link below a node of their own.
-    fn place_leaf(&mut self, ids: &[u32], bounds: &Aabb<3>) -> Placed {
-        const MOST: usize = Link::MOST_BLOCKS * TriangleBlock::WIDTH;
-        if ids.len() <= MOST {
+    fn place_leaf(&self, ids: &[u32], bounds: &Aabb<3>, room: &mut Room<'_>) -> Placed {
+        let Some(part) = part_of_leaf(ids.len()) else {
             let triangle = |&id: &u32| (id, self.mesh.corners(id));
             let blocks = ids.chunks(TriangleBlock::WIDTH);
             let blocks = blocks.map(|ids| TriangleBlock::new(ids.iter().map(triangle)));
-            return Placed { link: self.arena.push_leaf(blocks), stack: 0 };
-        }
-        let link = self.arena.reserve_node();
+            return Placed { link: room.put_leaf(blocks), stack: 0 };
+        };
+        let (link, place) = room.take_node();
         let mut node = WideNode::EMPTY;
         let mut stack = 0;
-        let part = ids.len().div_ceil(MOST).div_ceil(WideNode::WIDTH) * MOST;
         for (place, ids) in ids.chunks(part).enumerate() {
-            let child = self.place_leaf(ids, bounds);
+            let child = self.place_leaf(ids, bounds, room);
             node.set_child(place, bounds, child.link);
             stack = stack.max(child.stack);
         }
-        self.arena.set_node(link, node);
+        place.put(node);
         Placed { link, stack: stack + WideNode::WIDTH - 1 }
     }
 
-    /// Moves the faces outward by the pad at least.
-    fn padded(&self, bounds: &Aabb<3>) -> Aabb<3> {
+    /// The box of a node, its faces moved outward by the pad at least.
+    fn padded(&self, node: u32) -> Aabb<3> {
+        let bounds = &self.boxes[node as usize];
         Aabb {
             min: bounds.min.map(|x| ((f64::from(x) - self.pad) as f32).next_down()),
             max: bounds.max.map(|x| ((f64::from(x) + self.pad) as f32).next_up()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::build::Preset;
+    use rand::{RngExt, SeedableRng};
+    use std::ops::ControlFlow;
+
+    fn wide(mesh: &TriangleMesh, options: &BuildOptions) -> WideTree {
+        let go_on = |_| ControlFlow::Continue(());
+        let (tree, boxes) = KdTree::build_with_boxes(mesh, options, &go_on).unwrap();
+        WideTree::new(&tree, &boxes, mesh, options).unwrap().unwrap()
+    }
+
+    fn soup(count: usize) -> TriangleMesh {
+        let mut random = rand_pcg::Pcg64::seed_from_u64(1);
+        let triangles = (0..count).map(|_| {
+            let center = [0; 3].map(|_| random.random::<f32>());
+            [0; 3].map(|_| center.map(|x| x + 0.02 * random.random::<f32>()))
+        });
+        TriangleMesh::from_soup(triangles).unwrap()
+    }
+
+    #[cfg(feature = "rayon")]
+    #[test]
+    fn it_is_the_same_for_any_number_of_threads() {
+        let (mesh, options) = (soup(30_000), BuildOptions::preset(Preset::Fast));
+        let on = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| wide(&mesh, &options).arena)
+        };
+        assert!(on(1) == on(3));
+    }
+
+    #[test]
+    fn leaves_too_large_for_a_link_find_room() {
+        // Plans are checked while the tree is placed.
+        let one_leaf = BuildOptions { leaf_size: usize::MAX, ..BuildOptions::preset(Preset::Best) };
+        for count in [1, 56, 57, 449, 3000] {
+            let tree = wide(&soup(count), &one_leaf);
+            assert!(tree.bytes() >= count.div_ceil(8) * size_of::<TriangleBlock>());
         }
     }
 }

@@ -65,8 +65,8 @@ impl Scene {
         progress: &(dyn Fn(BuildProgress) -> ControlFlow<()> + Sync),
     ) -> Result<Self, BuildError> {
         let (shapes, wide) = if options.cost.block == TriangleBlock::WIDTH {
-            let (tree, bounds) = KdTree::build_with_bounds(&mesh, options, progress)?;
-            let wide = WideTree::new(&tree, &bounds, &mesh);
+            let (tree, boxes) = KdTree::build_with_boxes(&mesh, options, progress)?;
+            let wide = WideTree::new(&tree, &boxes, &mesh, options)?;
             (ShapeScene::of_tree(mesh, tree), wide)
         } else {
             (ShapeScene::build_with_progress(mesh, options, progress)?, None)

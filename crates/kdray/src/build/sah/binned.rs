@@ -31,6 +31,9 @@ const BINS: usize = 32;
 /// Nodes with fewer references than this have half as many bins.
 const SMALL: usize = 256;
 
+/// And nodes with fewer than this a quarter.
+const TINY: usize = 64;
+
 /// Room for the bins and the faces of the cell: a power of two.
 const ROOM: usize = 64;
 
@@ -129,7 +132,11 @@ impl Binned {
 
 /// How many bins a node of so many references has.
 fn bins_for(count: usize) -> usize {
-    if count < SMALL { BINS / 2 } else { BINS }
+    match count {
+        0..TINY => BINS / 4,
+        TINY..SMALL => BINS / 2,
+        _ => BINS,
+    }
 }
 
 /// Makes `events` those strictly inside the cell, and returns how many primitives are below and

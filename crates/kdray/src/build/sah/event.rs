@@ -76,6 +76,9 @@ impl Event {
     }
 }
 
+/// Longer lists are given no more memory than they need.
+const LARGE: usize = 1 << 13;
+
 /// The events of a node on one axis, in order.
 #[derive(Clone, Debug, Default)]
 pub(super) struct EventList {
@@ -140,8 +143,12 @@ impl EventList {
             count_below += fate.is_below();
             count_above += fate.is_above();
         }
-        below.truncate(count_below);
-        above.truncate(count_above);
+        for (events, count) in [(below, count_below), (above, count_above)] {
+            events.truncate(count);
+            if events.capacity() > LARGE {
+                events.shrink_to_fit();
+            }
+        }
     }
 }
 

@@ -1,0 +1,92 @@
+//! Sizes of memory: `8GiB`, `500MB`, `none`; and how much there is.
+
+use std::str::FromStr;
+use sysinfo::{ProcessRefreshKind, ProcessesToUpdate, System, get_current_pid};
+
+/// How much memory the build of a tree may take.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum MemoryLimit {
+    /// As much as is available when it begins.
+    #[default]
+    Available,
+    /// So many bytes.
+    Bytes(u64),
+    /// Any amount.
+    None,
+}
+
+impl MemoryLimit {
+    /// In bytes, as of now; `None` if there is no limit, or the system does not tell.
+    pub(crate) fn bytes(self) -> Option<u64> {
+        match self {
+            Self::Available => available(),
+            Self::Bytes(bytes) => Some(bytes),
+            Self::None => None,
+        }
+    }
+}
+
+/// How much memory can be had without swapping, by the machine and by the control group that the
+/// process is in; `None` if neither is known.
+fn available() -> Option<u64> {
+    let mut system = System::new().ok()?;
+    system.refresh_memory();
+    let machine = Some(system.available_memory()).filter(|&bytes| bytes > 0);
+    let group = get_current_pid().ok().and_then(|pid| {
+        let only = ProcessesToUpdate::Some(&[pid]);
+        system.refresh_processes_specifics(only, false, ProcessRefreshKind::nothing());
+        system.process(pid)?.cgroup_limits()
+    });
+    // What the group only holds to read files faster can be had, too.
+    let group = group.map(|group| group.total_memory.saturating_sub(group.rss));
+    machine.into_iter().chain(group).min()
+}
+
+impl FromStr for MemoryLimit {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        if text.eq_ignore_ascii_case("none") {
+            return Ok(Self::None);
+        }
+        let explained = || format!("`{text}` is no size; give one such as 8GiB or 500MB, or none");
+        let end = text.find(|c: char| c != '.' && !c.is_ascii_digit()).unwrap_or(text.len());
+        let number: f64 = text[..end].parse().map_err(|_| explained())?;
+        let unit: f64 = match text[end..].trim().to_ascii_lowercase().as_str() {
+            "" | "b" => 1.0,
+            "kb" => 1e3,
+            "mb" => 1e6,
+            "gb" => 1e9,
+            "tb" => 1e12,
+            "k" | "kib" => 1024.0,
+            "m" | "mib" => 1024_f64.powi(2),
+            "g" | "gib" => 1024_f64.powi(3),
+            "t" | "tib" => 1024_f64.powi(4),
+            _ => return Err(explained()),
+        };
+        Ok(Self::Bytes((number * unit) as u64))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_have_units() {
+        let read = |text: &str| text.parse::<MemoryLimit>();
+        assert_eq!(read("8GiB"), Ok(MemoryLimit::Bytes(8 << 30)));
+        assert_eq!(read("1.5 g"), Ok(MemoryLimit::Bytes(3 << 29)));
+        assert_eq!(read("500MB"), Ok(MemoryLimit::Bytes(500_000_000)));
+        assert_eq!(read("4096"), Ok(MemoryLimit::Bytes(4096)));
+        assert_eq!(read("none"), Ok(MemoryLimit::None));
+        for bad in ["", "GiB", "-1GB", "1.2.3", "8 giants", "inf"] {
+            assert!(read(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn what_is_available_is_a_limit() {
+        assert!(MemoryLimit::default().bytes().is_none_or(|bytes| bytes > 1 << 20));
+    }
+}
