@@ -42,7 +42,7 @@ pub(crate) fn on_each_mesh(
     let options = BuildOptions { cost: CostModel { block: 8, ..options.cost }, ..*options };
     for case in cases {
         let scene = Scene::build(case.subject.clone(), &options).expect("cases are valid");
-        let scene = scene.with_instructions(instructions).with_batches_above(0);
+        let scene = scene.with_instructions(instructions);
         let in_planes = in_split_planes(case, scene.tree());
         let aimed: Vec<_> = case.aimed.iter().chain(&in_planes).collect();
         if let Err(error) = check(&scene, &aimed) {

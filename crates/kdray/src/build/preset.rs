@@ -45,7 +45,7 @@ impl Preset {
     pub(super) fn options(self) -> BuildOptions {
         let (sah_builder, leaf_size) = match self {
             Self::Fast => (SahBuilder::Binned { sweep_below: 0 }, 24),
-            Self::Balanced => (SahBuilder::Binned { sweep_below: 64 }, 16),
+            Self::Balanced => (SahBuilder::Binned { sweep_below: 64 }, 8),
             Self::Best => (SahBuilder::Sweep, 4),
         };
         let settings = BuildOptions::for_strategy(Strategy::Sah);

@@ -23,13 +23,8 @@ impl WideNode {
     pub(crate) const WIDTH: usize = 8;
 
     /// A node without children; the order is that of the places.
-    pub(super) const EMPTY: Self = Self {
-        planes: {
-            [[[f32::INFINITY; 8]; 2]; 3]
-        },
-        links: [0; 8],
-        order: [0x7654_3210; 8],
-    };
+    pub(super) const EMPTY: Self =
+        Self { planes: { [[[f32::INFINITY; 8]; 2]; 3] }, links: [0; 8], order: [0x7654_3210; 8] };
 
     pub(super) fn set_child(&mut self, place: usize, bounds: &Aabb<3>, link: Link) {
         for axis in 0..3 {

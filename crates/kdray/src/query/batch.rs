@@ -7,22 +7,11 @@ use crate::traverse::wide::{Any, Batch, Closest, Search};
 use std::borrow::Borrow;
 
 impl Scene {
-    /// Batches on wide trees of more bytes than this take turns between rays: that takes more
-    /// instructions than one ray after the other, but waits less for memory that is not in the
-    /// caches.
-    pub const BATCH_PAYS: usize = 8 << 20;
-
-    /// The same scene, whose batches take turns between rays if the wide tree is of more than
-    /// `bytes`, [`BATCH_PAYS`](Self::BATCH_PAYS) by default. The hits are the same.
-    #[must_use]
-    pub fn with_batches_above(self, bytes: usize) -> Self {
-        Self { batches_above: bytes, ..self }
-    }
-
     /// [`closest_hit`](Self::closest_hit) of each ray, on this thread: `hits[i]` is that of
-    /// `rays[i]`. Takes no memory.
+    /// `rays[i]`. Allocates nothing.
     ///
-    /// Faster than one ray after the other on large trees.
+    /// Faster than one ray after the other, the more so the larger the tree: sixteen rays are under
+    /// way at once and take turns.
     ///
     /// # Panics
     /// If the slices differ in length.
@@ -32,7 +21,7 @@ impl Scene {
     }
 
     /// [`any_hit`](Self::any_hit) of each ray, on this thread: `found[i]` is that of `rays[i]`.
-    /// Takes no memory.
+    /// Allocates nothing.
     ///
     /// # Panics
     /// If the slices differ in length.
@@ -101,15 +90,18 @@ impl Scene {
         }
     }
 
-    /// Searches along each of `rays`, by the kernel that suits the tree's size.
+    /// Searches along each of `rays`: in turns, which was faster on trees of every size, unless they
+    /// are so few that to begin with turns takes longer.
     fn each<'a, Q: Search<'a>>(
         &'a self,
         rays: impl IntoIterator<Item: Borrow<Ray>>,
         one: impl Fn(&Ray) -> Q::Answer,
         mut found: impl FnMut(usize, Q::Answer),
     ) {
+        const FEW: usize = 8;
         let rays = rays.into_iter();
-        match self.wide_tree().filter(|tree| tree.bytes() > self.batches_above) {
+        let few = rays.size_hint().1.is_some_and(|most| most <= FEW);
+        match self.wide_tree().filter(|_| !few) {
             Some(tree) => self.instructions.run(Batch::<Q, _, _, _>::new(tree, rays, one, found)),
             None => rays.enumerate().for_each(|(index, ray)| found(index, one(ray.borrow()))),
         }

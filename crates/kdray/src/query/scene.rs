@@ -33,7 +33,6 @@ pub struct Scene {
     pub(super) trees: Arc<Trees>,
     pub(super) arithmetic: Arithmetic,
     pub(super) instructions: InstructionSet,
-    pub(super) batches_above: usize,
 }
 
 #[derive(Debug)]
@@ -75,7 +74,6 @@ impl Scene {
             trees: Arc::new(Trees { shapes, wide }),
             arithmetic: Arithmetic::default(),
             instructions: InstructionSet::best(),
-            batches_above: Self::BATCH_PAYS,
         })
     }
 

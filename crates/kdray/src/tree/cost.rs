@@ -92,14 +92,14 @@ impl CostModel {
         termination: Termination::LimitsOnly,
     };
 
-    /// For leaves whose primitives are tested eight at once: a block costs two steps down the tree,
-    /// and a leaf half a step besides.
+    /// For leaves whose primitives are tested eight at once: a block costs three steps down the tree,
+    /// and a leaf a step besides, as the kernels of the wide tree were measured.
     pub const BLOCKS_OF_8: Self = Self {
         traversal: 1.0,
-        intersection: 2.0,
-        leaf: 0.5,
+        intersection: 3.0,
+        leaf: 1.0,
         block: 8,
-        empty_bonus: 0.3,
+        empty_bonus: 0.8,
         termination: Termination::Automatic,
     };
 
@@ -172,9 +172,9 @@ mod tests {
     #[test]
     fn blocks_count_whole_in_leaves_and_by_half_in_splits() {
         let cost = CostModel::BLOCKS_OF_8;
-        assert_eq!([0, 1, 8, 9, 16].map(|count| cost.leaf(count)), [0.0, 2.5, 2.5, 4.5, 4.5]);
+        assert_eq!([0, 1, 8, 9, 16].map(|count| cost.leaf(count)), [0.0, 4.0, 4.0, 7.0, 7.0]);
         let (below, above) = (0.5 * (3 + 8) as f64, 0.5 * (9 + 16) as f64);
-        assert_eq!(cost.split([0.5, 0.75], [3, 9]), 1.0 + 2.0 * (0.5 * below + 0.75 * above));
+        assert_eq!(cost.split([0.5, 0.75], [3, 9]), 1.0 + 3.0 * (0.5 * below + 0.75 * above));
     }
 
     #[test]

@@ -140,7 +140,8 @@ impl Aim {
             return Err(NoAim::Missed);
         }
 
-        let (exact_origin, exact_direction) = (load(simd, &line.origin), load(simd, &line.direction));
+        let (exact_origin, exact_direction) =
+            (load(simd, &line.origin), load(simd, &line.direction));
         let (origin, direction) = simd.split_f32x8(exact_origin.narrow(exact_direction));
         let (rounded, _) = simd.combine_f32x4(origin, direction).widen();
         let off = largest((exact_origin - rounded).abs().as_array());

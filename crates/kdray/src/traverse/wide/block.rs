@@ -51,11 +51,7 @@ pub(super) struct Depths<S: Lanes> {
 impl<S: Lanes> BlockTest<S> {
     /// The error bounds are only right if EXACT; otherwise zero.
     #[inline(always)]
-    pub(super) fn new<const EXACT: bool>(
-        simd: S,
-        block: &TriangleBlock,
-        aim: &Aim,
-    ) -> Self {
+    pub(super) fn new<const EXACT: bool>(simd: S, block: &TriangleBlock, aim: &Aim) -> Self {
         let (a, b, c) = (corner(simd, block, 0), corner(simd, block, 1), corner(simd, block, 2));
         let (e1, e2) = (difference(b, a), difference(c, a));
         let (origin, direction) = (splat(simd, &aim.origin), splat(simd, &aim.direction));
@@ -134,11 +130,7 @@ impl<S: Lanes> BlockTest<S> {
 /// An origin that is not an f32 is off by E: U by 2·D·ē·E, T by 6·ē²·E. With M not below
 /// E / (2 u), as [`Aim`] sees to, that is at most 4 u D ē M and 12 u ē² M more.
 #[inline(always)]
-fn error_bounds<S: Lanes>(
-    simd: S,
-    aim: &Aim,
-    [edge, distance]: [f32x8<S>; 2],
-) -> [f32x8<S>; 5] {
+fn error_bounds<S: Lanes>(simd: S, aim: &Aim, [edge, distance]: [f32x8<S>; 2]) -> [f32x8<S>; 5] {
     let all = |x: f32| f32x8::splat(simd, x);
     let distance = distance.max(all(aim.least_distance));
     let edge_error = (edge * (edge + distance)).mul_add(all(aim.edge_error), all(UNDERFLOW));

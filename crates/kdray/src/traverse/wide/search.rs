@@ -19,12 +19,7 @@ pub(crate) trait Search<'a>: Sized {
 
     /// Looks at the triangles of a block, and ends the open part of the ray at the best hit; true
     /// if the search is over.
-    fn visit<S: Lanes>(
-        &mut self,
-        simd: S,
-        block: &'a TriangleBlock,
-        aim: &mut Aim,
-    ) -> bool;
+    fn visit<S: Lanes>(&mut self, simd: S, block: &'a TriangleBlock, aim: &mut Aim) -> bool;
 
     /// Sets the answer to what was found.
     fn answer(&self, answer: &mut Self::Answer);
@@ -54,12 +49,7 @@ impl<'a, const EXACT: bool> Search<'a> for Closest<'a, EXACT> {
     }
 
     #[inline(always)]
-    fn visit<S: Lanes>(
-        &mut self,
-        simd: S,
-        block: &'a TriangleBlock,
-        aim: &mut Aim,
-    ) -> bool {
+    fn visit<S: Lanes>(&mut self, simd: S, block: &'a TriangleBlock, aim: &mut Aim) -> bool {
         if EXACT {
             let test = BlockTest::new::<true>(simd, block, aim);
             let candidates = test.candidates(aim).to_bitmask();
@@ -172,12 +162,7 @@ impl<const EXACT: bool> Search<'_> for Any<EXACT> {
     }
 
     #[inline(always)]
-    fn visit<S: Lanes>(
-        &mut self,
-        simd: S,
-        block: &TriangleBlock,
-        aim: &mut Aim,
-    ) -> bool {
+    fn visit<S: Lanes>(&mut self, simd: S, block: &TriangleBlock, aim: &mut Aim) -> bool {
         let test = BlockTest::new::<EXACT>(simd, block, aim);
         let candidates = test.candidates(aim).to_bitmask();
         self.is_hit = candidates != 0

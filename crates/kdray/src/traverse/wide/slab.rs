@@ -58,7 +58,8 @@ impl<S: Lanes> Slabs<S> {
     /// The children of a node whose boxes the ray meets.
     #[inline(always)]
     pub(super) fn meet(&self, simd: S, node: &WideNode) -> Met<S> {
-        let (x, y, z) = (self.axis(simd, node, 0), self.axis(simd, node, 1), self.axis(simd, node, 2));
+        let (x, y, z) =
+            (self.axis(simd, node, 0), self.axis(simd, node, 1), self.axis(simd, node, 2));
         let t_near = x.0.max(y.0).max(z.0.max(self.t_near));
         let t_far = x.1.min(y.1).min(z.1.min(self.t_far));
         let links = u32x8::load_array_ref(simd, node.links());
