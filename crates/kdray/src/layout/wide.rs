@@ -11,7 +11,8 @@ use crate::primitives::TriangleMesh;
 use crate::tree::{KdTree, NodeKind};
 use arrayvec::ArrayVec;
 
-/// Room on the kernels' stacks. A tree that needs more is not made wide.
+/// Room on the kernels' stacks, of which one place is for the end. A tree that needs more is not
+/// made wide.
 pub(crate) const STACK_SIZE: usize = 128;
 
 /// Half the distance from 1 to the next f32.
@@ -70,7 +71,7 @@ impl WideTree {
         let mut room = arena.room();
         let root = placer.place_node(0, &plan.children, &mut room);
         debug_assert!(room.is_empty(), "the plan is wrong");
-        let fits = root.link == Link::ROOT && root.stack + WideNode::WIDTH <= STACK_SIZE;
+        let fits = root.link == Link::ROOT && root.stack + 1 + WideNode::WIDTH <= STACK_SIZE;
         Ok(fits.then_some(Self { arena, reach }))
     }
 

@@ -158,7 +158,7 @@ impl<'a, Q: Search<'a>> Traveller<Q> {
     fn pass_node<S: Lanes>(&mut self, simd: S, tree: &WideTree) {
         let node = tree.node(self.next);
         let met = Slabs::new(simd, &self.aim).meet(simd, node);
-        self.next = self.stack.push_and_pop(&met, self.aim.t_far);
+        self.next = self.stack.push_and_pop::<S, Q>(&met, self.aim.t_far);
     }
 
     /// Visits the next block of a leaf; true if the search is over.
@@ -168,7 +168,7 @@ impl<'a, Q: Search<'a>> Traveller<Q> {
             return true;
         }
         let rest = self.next.rest();
-        self.next = if rest.block_count() > 0 { rest } else { self.stack.pop(self.aim.t_far) };
+        self.next = if rest.block_count() > 0 { rest } else { self.stack.pop::<Q>(self.aim.t_far) };
         false
     }
 }

@@ -14,6 +14,9 @@ pub(crate) trait Search<'a>: Sized {
     /// What is found; by default nothing.
     type Answer: Default;
 
+    /// Whether hits end the open part of the ray; if not, all that the ray meets is to be visited.
+    const SHORTENS: bool;
+
     /// Nothing is found yet.
     fn new(ray: &Ray<3>) -> Self;
 
@@ -42,6 +45,7 @@ pub(crate) struct Closest<'a, const EXACT: bool> {
 
 impl<'a, const EXACT: bool> Search<'a> for Closest<'a, EXACT> {
     type Answer = Option<Hit>;
+    const SHORTENS: bool = true;
 
     #[inline(always)]
     fn new(ray: &Ray<3>) -> Self {
@@ -155,6 +159,7 @@ pub(crate) struct Any<const EXACT: bool> {
 
 impl<const EXACT: bool> Search<'_> for Any<EXACT> {
     type Answer = bool;
+    const SHORTENS: bool = false;
 
     #[inline(always)]
     fn new(ray: &Ray<3>) -> Self {

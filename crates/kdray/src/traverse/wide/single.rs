@@ -46,9 +46,9 @@ impl<'a, Q: Search<'a>> Kernel for Single<'a, '_, Q> {
                 // boxes are tested.
                 let met = slabs.meet(simd, tree.node(next));
                 next = if met.count == 0 {
-                    stack.pop(aim.t_far)
+                    stack.pop::<Q>(aim.t_far)
                 } else {
-                    stack.push_but_nearest(&met);
+                    stack.push_but_nearest::<S, Q>(&met);
                     met.nearest
                 };
                 continue;
@@ -63,7 +63,7 @@ impl<'a, Q: Search<'a>> Kernel for Single<'a, '_, Q> {
                 }
             }
             slabs.end(simd, aim.t_far);
-            next = stack.pop(aim.t_far);
+            next = stack.pop::<Q>(aim.t_far);
         }
         search.answer(answer);
         Ok(())

@@ -1,5 +1,6 @@
 //! What a ray has yet to visit.
 
+use super::search::Search;
 use super::slab::Met;
 use crate::layout::{Link, STACK_SIZE};
 use crate::simd::Lanes;
@@ -44,11 +45,14 @@ impl Stack {
     }
 
     /// Adds the children of a node but the nearest. There is always room for all eight: the layout
-    /// sees to it.
+    /// sees to it. Where they are entered is kept if the search shortens
+    /// the ray.
     #[inline(always)]
-    pub(super) fn push_but_nearest<S: Lanes>(&mut self, met: &Met<S>) {
+    pub(super) fn push_but_nearest<'a, S: Lanes, Q: Search<'a>>(&mut self, met: &Met<S>) {
         let room = self.len..self.len + 8;
-        self.t[room.clone()].copy_from_slice(met.lists.t.as_array());
+        if Q::SHORTENS {
+            self.t[room.clone()].copy_from_slice(met.lists.t.as_array());
+        }
         self.links[room].copy_from_slice(met.lists.links.as_array());
         self.len = self.len + met.count - 1;
     }
@@ -56,12 +60,19 @@ impl Stack {
     /// Adds the children of a node, and takes the next that begins before `t_far`. Without a branch
     /// on whether there are children, which could not be foretold.
     #[inline(always)]
-    pub(super) fn push_and_pop<S: Lanes>(&mut self, met: &Met<S>, t_far: f32) -> Link {
+    pub(super) fn push_and_pop<'a, S: Lanes, Q: Search<'a>>(
+        &mut self,
+        met: &Met<S>,
+        t_far: f32,
+    ) -> Link {
         let (t, waiting) = self.top();
-        self.push_but_nearest(met);
-        let t = select_unpredictable(met.count > 0, f32::NEG_INFINITY.to_bits(), t.to_bits());
+        self.push_but_nearest::<S, Q>(met);
         let next = select_unpredictable(met.count > 0, met.nearest.to_bits(), waiting.to_bits());
-        if f32::from_bits(t) <= t_far { Link::from_bits(next) } else { self.pop(t_far) }
+        let t = select_unpredictable(met.count > 0, f32::NEG_INFINITY.to_bits(), t.to_bits());
+        if !Q::SHORTENS || f32::from_bits(t) <= t_far {
+            return Link::from_bits(next);
+        }
+        self.pop::<Q>(t_far)
     }
 
     /// Takes the next whose box the ray enters up to `t_far`.
@@ -69,11 +80,11 @@ impl Stack {
     /// Those that wait below it cannot be dropped with one that begins behind `t_far`: boxes are
     /// wider than cells, so that a ray may meet the box of a cell that it passes by.
     #[inline(always)]
-    pub(super) fn pop(&mut self, t_far: f32) -> Link {
+    pub(super) fn pop<'a, Q: Search<'a>>(&mut self, t_far: f32) -> Link {
         loop {
             let (t, link) = self.top();
             self.len = self.len.wrapping_sub(1);
-            if t <= t_far {
+            if !Q::SHORTENS || t <= t_far {
                 return link;
             }
         }
