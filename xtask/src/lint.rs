@@ -1,7 +1,11 @@
 //! `cargo xtask lint`.
 
 use crate::steps::{Steps, cargo, say};
-use std::process::Stdio;
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+/// A target whose kernels are not those of x86-64.
+const OTHER_PROCESSOR: &str = "aarch64-unknown-linux-gnu";
 
 /// Runs every check that needs no program to be run.
 pub(crate) fn run() -> Result<(), String> {
@@ -14,6 +18,13 @@ pub(crate) fn run() -> Result<(), String> {
     steps.cargo("documentation", "doc --workspace --no-deps", &doc)?;
     let private = "doc --workspace --no-deps --document-private-items";
     steps.cargo("documentation of private items", private, &doc)?;
+    if has_standard_library(OTHER_PROCESSOR) {
+        let check = format!("check -p kdray --target {OTHER_PROCESSOR}");
+        steps.cargo("types on another processor", &check, &[])?;
+    } else {
+        say("--- types on another processor: SKIPPED, its standard library is not installed");
+        say(&format!("    (rustup target add {OTHER_PROCESSOR})"));
+    }
     if has_deny() {
         steps.cargo("licences and advisories", "deny check", &[])?;
     } else {
@@ -22,6 +33,14 @@ pub(crate) fn run() -> Result<(), String> {
     }
     steps.finish("lint");
     Ok(())
+}
+
+/// Whether anything can be compiled for a target.
+fn has_standard_library(target: &str) -> bool {
+    let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
+    let folder =
+        Command::new(rustc).args(["--print", "target-libdir", "--target", target]).output();
+    folder.is_ok_and(|output| Path::new(String::from_utf8_lossy(&output.stdout).trim()).exists())
 }
 
 fn has_deny() -> bool {
