@@ -14,7 +14,7 @@ impl BuildOptions {
     /// ```
     /// use kdray::{BuildOptions, Preset};
     /// let needed = BuildOptions::preset(Preset::Fast).peak_bytes(50_000_000);
-    /// assert!(needed < 12 << 30, "12 GiB will do");
+    /// assert!(needed < 16 << 30, "16 GiB will do");
     /// ```
     pub fn peak_bytes(&self, count: usize) -> u64 {
         /// What threads work in, whatever the number of triangles.
@@ -37,7 +37,7 @@ impl BuildOptions {
 }
 
 /// Bytes a triangle by bins: the wide tree at the end is the most of it.
-const BINNED: u64 = 200;
+const BINNED: u64 = 270;
 
 /// By the sweep, with lists of bounds sorted on each axis.
 const SWEPT: u64 = 400;

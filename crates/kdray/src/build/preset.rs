@@ -39,9 +39,8 @@ impl Preset {
         }
     }
 
-    /// The settings. A node of two blocks or fewer is rarely worth a cut, and leaving these uncut
-    /// saves a third of the build; [`Best`](Self::Best) makes sure. With three blocks uncut a build
-    /// is a sixth shorter again, and the tree a tenth smaller, but costs 4 % more.
+    /// The settings. To leave nodes of three blocks uncut saves a third of the build, and rays take
+    /// a sixth longer; [`Best`](Self::Best) weighs cuts within a block, too.
     pub(super) fn options(self) -> BuildOptions {
         let (sah_builder, leaf_size) = match self {
             Self::Fast => (SahBuilder::Binned { sweep_below: 0 }, 24),

@@ -1,8 +1,8 @@
 //! Many rays through the wide tree, in turns.
 //!
-//! A single ray waits for memory and for branches that were foretold wrongly. Here the work on one
-//! ray fills the gaps that others leave: a few rays are under way at once, and take turns at nodes
-//! and at leaves. That costs instructions, so it pays on large trees.
+//! A single ray waits: for memory, and at each node for a long chain of instructions. Here the work
+//! on one ray fills the gaps that others leave: a few rays are under way at once, and take turns at
+//! nodes and at blocks.
 
 use super::aim::{Aim, NoAim};
 use super::search::Search;
