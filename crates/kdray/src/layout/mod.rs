@@ -8,6 +8,7 @@ mod block;
 mod collapse;
 mod node;
 mod plan;
+mod treelet;
 mod wide;
 
 pub(crate) use arena::Link;

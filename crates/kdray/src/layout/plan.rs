@@ -1,11 +1,11 @@
 //! How much room the parts of a wide tree take, before any of them is placed.
 
 use super::arena::{Link, NODE_LINES, leaf_lines};
-use super::collapse::Treelet;
+use super::collapse::Collapse;
+use super::treelet::Treelet;
 use super::{TriangleBlock, WideNode};
 use crate::build::parallel::map_all;
-use crate::geometry::Aabb;
-use crate::tree::{KdTree, NodeKind};
+use crate::tree::NodeKind;
 
 /// Most triangles that one link leads to.
 const MOST: usize = Link::MOST_BLOCKS * TriangleBlock::WIDTH;
@@ -26,35 +26,35 @@ const LEVELS: usize = 3;
 const LARGE: usize = 1 << 12;
 
 impl Plan {
-    /// That of the whole tree; `boxes` are those of its nodes.
-    pub(super) fn new(tree: &KdTree<3>, boxes: &[Aabb<3>]) -> Self {
-        let levels = if tree.nodes().len() < LARGE { 0 } else { LEVELS };
-        Self::of_node(tree, boxes, 0, levels)
+    /// That of the whole tree.
+    pub(super) fn new(collapse: &Collapse<'_>) -> Self {
+        let levels = if collapse.tree.nodes().len() < LARGE { 0 } else { LEVELS };
+        Self::of_node(collapse, 0, levels)
     }
 
-    fn of_node(tree: &KdTree<3>, boxes: &[Aabb<3>], node: u32, levels: usize) -> Self {
+    fn of_node(collapse: &Collapse<'_>, node: u32, levels: usize) -> Self {
         if levels == 0 {
-            return Self { lines: lines_of_node(tree, boxes, node), children: Vec::new() };
+            return Self { lines: lines_of_node(collapse, node), children: Vec::new() };
         }
         let mut lines = NODE_LINES;
         let mut inner = Vec::new();
-        for &end in &Treelet::new(tree, boxes, node).ends {
-            match tree.nodes()[end as usize].kind() {
+        for &end in &Treelet::new(collapse, node).ends {
+            match collapse.tree.nodes()[end as usize].kind() {
                 NodeKind::Leaf { count, .. } => lines += lines_of_leaf(count as usize),
                 NodeKind::Inner { .. } => inner.push(end),
             }
         }
-        let children = map_all(inner, |end| Self::of_node(tree, boxes, end, levels - 1));
+        let children = map_all(inner, |end| Self::of_node(collapse, end, levels - 1));
         lines += children.iter().map(|child| child.lines).sum::<usize>();
         Self { lines, children }
     }
 }
 
-fn lines_of_node(tree: &KdTree<3>, boxes: &[Aabb<3>], node: u32) -> usize {
-    let ends = Treelet::new(tree, boxes, node).ends;
-    let below = ends.iter().map(|&end| match tree.nodes()[end as usize].kind() {
+fn lines_of_node(collapse: &Collapse<'_>, node: u32) -> usize {
+    let ends = Treelet::new(collapse, node).ends;
+    let below = ends.iter().map(|&end| match collapse.tree.nodes()[end as usize].kind() {
         NodeKind::Leaf { count, .. } => lines_of_leaf(count as usize),
-        NodeKind::Inner { .. } => lines_of_node(tree, boxes, end),
+        NodeKind::Inner { .. } => lines_of_node(collapse, end),
     });
     NODE_LINES + below.sum::<usize>()
 }

@@ -1,8 +1,9 @@
 //! The wide tree.
 
 use super::arena::{Arena, Link, Room};
-use super::collapse::Treelet;
+use super::collapse::Collapse;
 use super::plan::{Plan, part_of_leaf};
+use super::treelet::Treelet;
 use super::{TriangleBlock, WideNode};
 use crate::build::parallel::map_all;
 use crate::build::{BuildError, BuildOptions};
@@ -39,9 +40,7 @@ struct Placed {
 
 struct Placer<'a> {
     mesh: &'a TriangleMesh,
-    tree: &'a KdTree<3>,
-    /// Those of the tree's nodes.
-    boxes: &'a [Aabb<3>],
+    collapse: &'a Collapse<'a>,
     pad: f64,
 }
 
@@ -62,12 +61,13 @@ impl WideTree {
     ) -> Result<Option<Self>, BuildError> {
         let Some(reach) = reach(tree.bounds()) else { return Ok(None) };
         let pad = f64::from(12.0 * ROUNDING * reach);
-        let plan = Plan::new(tree, boxes);
+        let collapse = &Collapse::new(tree, boxes);
+        let plan = Plan::new(collapse);
         let held =
             size_of_val(tree.nodes()) + size_of_val(&tree.references[..]) + size_of_val(boxes);
         options.check_memory((held + Arena::bytes_of(plan.lines)) as u64)?;
         let Some(mut arena) = Arena::new(plan.lines) else { return Ok(None) };
-        let placer = Placer { mesh, tree, boxes, pad };
+        let placer = Placer { mesh, collapse, pad };
         let mut room = arena.room();
         let root = placer.place_node(0, &plan.children, &mut room);
         debug_assert!(room.is_empty(), "the plan is wrong");
@@ -111,14 +111,19 @@ impl Placer<'_> {
     /// Places a node of the binary tree as a wide one, then all below it: those of its children that
     /// are nodes at once if there are `plans` for them.
     fn place_node(&self, root: u32, plans: &[Plan], room: &mut Room<'_>) -> Placed {
-        let treelet = Treelet::new(self.tree, self.boxes, root);
+        let treelet = Treelet::new(self.collapse, root);
         let (link, place) = room.take_node();
         let mut placed = ArrayVec::<_, { WideNode::WIDTH }>::new();
         let (mut tasks, mut plans) = (Vec::new(), plans.iter());
         for &end in &treelet.ends {
-            let is_leaf = matches!(self.tree.nodes()[end as usize].kind(), NodeKind::Leaf { .. });
+            let is_leaf =
+                matches!(self.collapse.tree.nodes()[end as usize].kind(), NodeKind::Leaf { .. });
             placed.push(if is_leaf {
-                Some(self.place_leaf(self.tree.leaf_primitives(end), &self.padded(end), room))
+                Some(self.place_leaf(
+                    self.collapse.tree.leaf_primitives(end),
+                    &self.padded(end),
+                    room,
+                ))
             } else if let Some(plan) = plans.next() {
                 tasks.push((end, plan, room.take(plan.lines)));
                 None
@@ -170,7 +175,7 @@ impl Placer<'_> {
 
     /// The box of a node, its faces moved outward by the pad at least.
     fn padded(&self, node: u32) -> Aabb<3> {
-        let bounds = &self.boxes[node as usize];
+        let bounds = &self.collapse.boxes[node as usize];
         Aabb {
             min: bounds.min.map(|x| ((f64::from(x) - self.pad) as f32).next_down()),
             max: bounds.max.map(|x| ((f64::from(x) + self.pad) as f32).next_up()),
