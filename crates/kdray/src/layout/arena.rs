@@ -1,15 +1,18 @@
 //! The memory of a wide tree: nodes and blocks between each other, in lines of 64 bytes.
 
+use super::home::{Home, Site};
 use super::{TriangleBlock, WideNode};
 use bytemuck::allocation::zeroed_vec;
 use bytemuck::{Pod, Zeroable, must_cast, must_cast_ref};
+use std::iter::Sum;
+use std::ops::{Add, Mul};
 
 /// As much as a processor fetches at once.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 #[repr(C, align(64))]
 struct Line([u32; 16]);
 
-pub(super) const NODE_LINES: usize = size_of::<WideNode>() / size_of::<Line>();
+const NODE_LINES: usize = size_of::<WideNode>() / size_of::<Line>();
 const BLOCK_LINES: usize = size_of::<TriangleBlock>() / size_of::<Line>();
 
 /// Where a child of a wide node lies, in four bytes: a node, or the blocks of a leaf.
@@ -72,45 +75,101 @@ impl Link {
     }
 }
 
+/// Nodes and blocks begin so many lines apart at the least, so that in each slot of as many lines at
+/// most one begins.
+const SLOT_LINES: usize = NODE_LINES;
+
+/// How much room something takes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Size {
+    pub(super) lines: usize,
+    pub(super) nodes: usize,
+}
+
+impl Size {
+    pub(super) const NODE: Self = Self { lines: NODE_LINES, nodes: 1 };
+
+    /// That of so many blocks.
+    pub(super) fn of_blocks(count: usize) -> Self {
+        Self { lines: count * BLOCK_LINES, nodes: 0 }
+    }
+
+    /// How many slots there are in so many lines.
+    pub(super) fn slots(&self) -> usize {
+        self.lines.div_ceil(SLOT_LINES)
+    }
+
+    /// How many bytes an arena of that size takes.
+    pub(super) fn bytes(&self) -> usize {
+        self.lines * size_of::<Line>()
+    }
+}
+
+impl Add for Size {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self { lines: self.lines + other.lines, nodes: self.nodes + other.nodes }
+    }
+}
+
+impl Mul<Size> for usize {
+    type Output = Size;
+
+    fn mul(self, size: Size) -> Size {
+        Size { lines: self * size.lines, nodes: self * size.nodes }
+    }
+}
+
+impl Sum for Size {
+    fn sum<I: Iterator<Item = Self>>(sizes: I) -> Self {
+        sizes.fold(Self::default(), Add::add)
+    }
+}
+
 /// Nodes and blocks.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Arena {
     lines: Vec<Line>,
 }
 
-/// Lines of an arena that are yet to be filled, from the first on.
+/// Lines of an arena and homes that are yet to be filled, from the first on.
 pub(super) struct Room<'a> {
     lines: &'a mut [Line],
-    /// The number of the first line in the arena.
-    first: usize,
+    homes: &'a mut [Home],
+    /// How much lies before.
+    first: Size,
 }
 
 /// The place of a node whose children are being placed.
-pub(super) struct NodeRoom<'a>(&'a mut [Line]);
-
-/// How many lines so many blocks take.
-pub(super) fn leaf_lines(blocks: usize) -> usize {
-    blocks * BLOCK_LINES
+pub(super) struct NodeRoom<'a> {
+    lines: &'a mut [Line],
+    pub(super) link: Link,
+    /// The number of the node's home.
+    pub(super) home: u32,
 }
 
 impl<'a> Room<'a> {
-    /// Takes the first lines away.
-    pub(super) fn take(&mut self, lines: usize) -> Self {
-        let (taken, rest) = std::mem::take(&mut self.lines).split_at_mut(lines);
-        let taken = Self { lines: taken, first: self.first };
-        (self.lines, self.first) = (rest, self.first + lines);
+    /// Takes the first part away.
+    pub(super) fn take(&mut self, size: Size) -> Self {
+        let (lines, other_lines) = std::mem::take(&mut self.lines).split_at_mut(size.lines);
+        let (homes, other_homes) = std::mem::take(&mut self.homes).split_at_mut(size.nodes);
+        let taken = Self { lines, homes, first: self.first };
+        *self = Self { lines: other_lines, homes: other_homes, first: self.first + size };
         taken
     }
 
     /// Whether all of it was taken.
     pub(super) fn is_empty(&self) -> bool {
-        self.lines.is_empty()
+        self.lines.is_empty() && self.homes.is_empty()
     }
 
-    /// Takes the room of a node, to be filled when its children are placed.
-    pub(super) fn take_node(&mut self) -> (Link, NodeRoom<'a>) {
-        let Room { lines, first } = self.take(NODE_LINES);
-        (Link(first as u32), NodeRoom(lines))
+    /// Takes the room of a node, to be filled when its children are placed, and puts its home.
+    pub(super) fn take_node(&mut self, site: &Site, pad: f64) -> NodeRoom<'a> {
+        let Room { lines, homes, first } = self.take(Size::NODE);
+        let link = Link(first.lines as u32);
+        homes.fill(Home::new(site, link, pad));
+        NodeRoom { lines, link, home: first.nodes as u32 }
     }
 
     /// Puts the blocks of a leaf.
@@ -119,36 +178,43 @@ impl<'a> Room<'a> {
         blocks: impl ExactSizeIterator<Item = TriangleBlock>,
     ) -> Link {
         let count = blocks.len();
-        let Room { lines, first } = self.take(leaf_lines(count));
+        let Room { lines, first, .. } = self.take(Size::of_blocks(count));
         for (place, block) in lines.chunks_exact_mut(BLOCK_LINES).zip(blocks) {
             let block: [Line; BLOCK_LINES] = must_cast(block);
             place.copy_from_slice(&block);
         }
-        Link::leaf(first, count)
+        Link::leaf(first.lines, count)
     }
 }
 
 impl NodeRoom<'_> {
     pub(super) fn put(self, node: WideNode) {
         let node: [Line; NODE_LINES] = must_cast(node);
-        self.0.copy_from_slice(&node);
+        self.lines.copy_from_slice(&node);
     }
 }
 
 impl Arena {
-    /// How many bytes an arena of so many lines takes.
-    pub(super) fn bytes_of(lines: usize) -> usize {
-        lines * size_of::<Line>()
-    }
-
     /// An arena of so many lines; `None` if they are too many to be linked.
     pub(super) fn new(lines: usize) -> Option<Self> {
         (lines <= Link::MOST_LINES).then(|| Self { lines: zeroed_vec(lines) })
     }
 
-    /// All of it.
-    pub(super) fn room(&mut self) -> Room<'_> {
-        Room { lines: &mut self.lines, first: 0 }
+    /// All of it, with as many homes as it has nodes.
+    pub(super) fn room<'a>(&'a mut self, homes: &'a mut [Home]) -> Room<'a> {
+        Room { lines: &mut self.lines, homes, first: Size::default() }
+    }
+
+    pub(super) fn slot_count(&self) -> usize {
+        self.lines.len().div_ceil(SLOT_LINES)
+    }
+
+    /// The slot in which a block begins; of a block elsewhere anything. From its address, so that
+    /// nobody need keep more of a block than a reference.
+    pub(super) fn slot_of(&self, block: &TriangleBlock) -> usize {
+        let begin = self.lines.as_ptr().addr();
+        let bytes = std::ptr::from_ref(block).addr().wrapping_sub(begin);
+        bytes / (SLOT_LINES * size_of::<Line>())
     }
 
     pub(super) fn bytes(&self) -> usize {

@@ -21,6 +21,7 @@ pub(super) struct Treelet {
 struct Cut {
     node: u32,
     axis: usize,
+    split: f32,
     lower: u32,
     upper: u32,
 }
@@ -54,12 +55,29 @@ impl Treelet {
     ) {
         let Some(node) = filled(tree, boxes, node) else { return };
         self.ends.push(node);
-        if let NodeKind::Inner { axis, above, .. } = tree.nodes()[node as usize].kind() {
+        if let NodeKind::Inner { axis, split, above } = tree.nodes()[node as usize].kind() {
             let children = (filled(tree, boxes, node + 1), filled(tree, boxes, above));
             if let (Some(lower), Some(upper)) = children {
-                open.push((boxes[node as usize].half_surface(), Cut { node, axis, lower, upper }));
+                let cut = Cut { node, axis, split, lower, upper };
+                open.push((boxes[node as usize].half_surface(), cut));
             }
         }
+    }
+
+    /// The cell of an end, with the empty ones beside it that nothing is in; `cell` is the treelet's.
+    pub(super) fn cell(&self, end: u32, mut cell: Aabb<3>) -> Aabb<3> {
+        let mut at = self.cuts.first().map(|cut| cut.node);
+        for cut in &self.cuts {
+            if at != Some(cut.node) {
+                continue;
+            }
+            // All nodes below the upper child come behind it, all below the lower one before it.
+            let is_above = end >= cut.upper;
+            let (below, above) = cell.split(cut.axis, cut.split);
+            cell = if is_above { above } else { below };
+            at = Some(if is_above { cut.upper } else { cut.lower });
+        }
+        cell
     }
 
     /// The places of the ends, farthest first, for rays whose direction is in `octant`.

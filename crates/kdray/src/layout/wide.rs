@@ -2,14 +2,17 @@
 
 use super::arena::{Arena, Link, Room};
 use super::collapse::Treelet;
+use super::home::{Home, Site};
+use super::homes::Homes;
 use super::plan::{Plan, part_of_leaf};
-use super::{TriangleBlock, WideNode};
+use super::{Hint, TriangleBlock, WideNode};
 use crate::build::parallel::map_all;
 use crate::build::{BuildError, BuildOptions};
 use crate::geometry::Aabb;
 use crate::primitives::TriangleMesh;
 use crate::tree::{KdTree, NodeKind};
 use arrayvec::ArrayVec;
+use bytemuck::allocation::zeroed_vec;
 
 /// Room on the kernels' stacks. A tree that needs more is not made wide.
 pub(crate) const STACK_SIZE: usize = 128;
@@ -26,6 +29,7 @@ const ROUNDING: f32 = f32::EPSILON / 2.0;
 #[derive(Clone, Debug)]
 pub struct WideTree {
     arena: Arena,
+    homes: Homes,
     reach: f32,
 }
 
@@ -64,14 +68,16 @@ impl WideTree {
         let plan = Plan::new(tree, boxes);
         let held =
             size_of_val(tree.nodes()) + size_of_val(&tree.references[..]) + size_of_val(boxes);
-        options.check_memory((held + Arena::bytes_of(plan.lines)) as u64)?;
-        let Some(mut arena) = Arena::new(plan.lines) else { return Ok(None) };
+        let own = plan.size.bytes() + Homes::bytes_of(plan.size.slots(), plan.size.nodes);
+        options.check_memory((held + own) as u64)?;
+        let Some(mut arena) = Arena::new(plan.size.lines) else { return Ok(None) };
+        let mut homes = zeroed_vec::<Home>(plan.size.nodes);
         let placer = Placer { mesh, tree, boxes, pad };
-        let mut room = arena.room();
-        let root = placer.place_node(0, &plan.children, &mut room);
+        let mut room = arena.room(&mut homes);
+        let root = placer.place_node(0, &Site::ROOT, &plan.children, &mut room);
         debug_assert!(room.is_empty(), "the plan is wrong");
         let fits = root.link == Link::ROOT && root.stack + WideNode::WIDTH <= STACK_SIZE;
-        Ok(fits.then_some(Self { arena, reach }))
+        Ok(fits.then(|| Self { homes: Homes::new(homes, &arena), arena, reach }))
     }
 
     /// How far from zero, on any axis, a ray may start so that the boxes' margins cover what
@@ -82,7 +88,7 @@ impl WideTree {
 
     /// How much memory the tree takes, in bytes.
     pub fn bytes(&self) -> usize {
-        self.arena.bytes()
+        self.arena.bytes() + self.homes.bytes()
     }
 
     #[inline(always)]
@@ -93,6 +99,23 @@ impl WideTree {
     #[inline(always)]
     pub(crate) fn block(&self, link: Link, index: usize) -> &TriangleBlock {
         self.arena.block(link, index)
+    }
+
+    /// The home of the node to begin at.
+    #[inline(always)]
+    pub(crate) fn home(&self, hint: Hint) -> &Home {
+        self.homes.of_hint(hint)
+    }
+
+    /// The home of the node above.
+    #[inline(always)]
+    pub(crate) fn home_above(&self, home: &Home) -> &Home {
+        self.homes.above(home)
+    }
+
+    /// The hint of a hit in one of the tree's blocks.
+    pub(crate) fn hint(&self, block: &TriangleBlock) -> Hint {
+        self.homes.hint(&self.arena, block)
     }
 }
 
@@ -109,24 +132,27 @@ fn reach(bounds: &Aabb<3>) -> Option<f32> {
 impl Placer<'_> {
     /// Places a node of the binary tree as a wide one, then all below it: those of its children that
     /// are nodes at once if there are `plans` for them.
-    fn place_node(&self, root: u32, plans: &[Plan], room: &mut Room<'_>) -> Placed {
+    fn place_node(&self, root: u32, site: &Site, plans: &[Plan], room: &mut Room<'_>) -> Placed {
         let treelet = Treelet::new(self.tree, self.boxes, root);
-        let (link, place) = room.take_node();
+        let node_room = room.take_node(site, self.pad);
         let mut placed = ArrayVec::<_, { WideNode::WIDTH }>::new();
         let (mut tasks, mut plans) = (Vec::new(), plans.iter());
-        for &end in &treelet.ends {
+        for (place, &end) in treelet.ends.iter().enumerate() {
+            let cell = treelet.cell(end, site.cell);
+            let site = Site { cell, parent: node_room.home, place };
             let is_leaf = matches!(self.tree.nodes()[end as usize].kind(), NodeKind::Leaf { .. });
             placed.push(if is_leaf {
-                Some(self.place_leaf(self.tree.leaf_primitives(end), &self.padded(end), room))
+                let ids = self.tree.leaf_primitives(end);
+                Some(self.place_leaf(ids, &site, &self.padded(end), room))
             } else if let Some(plan) = plans.next() {
-                tasks.push((end, plan, room.take(plan.lines)));
+                tasks.push((end, site, plan, room.take(plan.size)));
                 None
             } else {
-                Some(self.place_node(end, &[], room))
+                Some(self.place_node(end, &site, &[], room))
             });
         }
-        let place_apart = |(end, plan, mut room): (u32, &Plan, Room<'_>)| {
-            let placed = self.place_node(end, &plan.children, &mut room);
+        let place_apart = |(end, site, plan, mut room): (u32, Site, &Plan, Room<'_>)| {
+            let placed = self.place_node(end, &site, &plan.children, &mut room);
             debug_assert!(room.is_empty(), "the plan is wrong");
             placed
         };
@@ -143,27 +169,36 @@ impl Placer<'_> {
         for octant in 0..8 {
             node.set_order(octant, &treelet.far_to_near(octant));
         }
-        place.put(node);
+        let link = node_room.link;
+        node_room.put(node);
         Placed { link, stack: stack + treelet.ends.len().saturating_sub(1) }
     }
 
     /// Places the triangles of a leaf; too many for one link below a node of their own.
-    fn place_leaf(&self, ids: &[u32], bounds: &Aabb<3>, room: &mut Room<'_>) -> Placed {
+    fn place_leaf(
+        &self,
+        ids: &[u32],
+        site: &Site,
+        bounds: &Aabb<3>,
+        room: &mut Room<'_>,
+    ) -> Placed {
         let Some(part) = part_of_leaf(ids.len()) else {
             let triangle = |&id: &u32| (id, self.mesh.corners(id));
             let blocks = ids.chunks(TriangleBlock::WIDTH);
             let blocks = blocks.map(|ids| TriangleBlock::new(ids.iter().map(triangle)));
             return Placed { link: room.put_leaf(blocks), stack: 0 };
         };
-        let (link, place) = room.take_node();
+        let node_room = room.take_node(site, self.pad);
         let mut node = WideNode::EMPTY;
         let mut stack = 0;
         for (place, ids) in ids.chunks(part).enumerate() {
-            let child = self.place_leaf(ids, bounds, room);
+            let site = Site { cell: site.cell, parent: node_room.home, place };
+            let child = self.place_leaf(ids, &site, bounds, room);
             node.set_child(place, bounds, child.link);
             stack = stack.max(child.stack);
         }
-        place.put(node);
+        let link = node_room.link;
+        node_room.put(node);
         Placed { link, stack: stack + WideNode::WIDTH - 1 }
     }
 

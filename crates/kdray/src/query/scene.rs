@@ -3,11 +3,11 @@
 use super::{Arithmetic, ShapeScene};
 use crate::build::{BuildError, BuildOptions, BuildProgress};
 use crate::geometry::Ray;
-use crate::layout::{TriangleBlock, WideTree};
+use crate::layout::{Hint, TriangleBlock, WideTree};
 use crate::primitives::{Hit, TriangleMesh};
 use crate::simd::InstructionSet;
 use crate::traverse::AllHits;
-use crate::traverse::wide::{Any, Closest, NoAim, search_along};
+use crate::traverse::wide::{Any, Closest, Located, NoAim, search_along, search_near};
 use crate::tree::KdTree;
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -143,6 +143,43 @@ impl Scene {
         let found = match self.arithmetic {
             Arithmetic::Exact => search_along::<Any<true>>(tree, ray, set, &mut is_hit),
             Arithmetic::Float => search_along::<Any<false>>(tree, ray, set, &mut is_hit),
+        };
+        match found {
+            Ok(()) | Err(NoAim::Missed) => is_hit,
+            Err(NoAim::OutOfRange) => self.trees.shapes.any_hit(ray),
+        }
+    }
+
+    /// [`closest_hit`](Self::closest_hit) with where in the tree it was found: a hint for
+    /// [`any_hit_near`](Self::any_hit_near).
+    #[must_use]
+    pub fn closest_hit_with_hint(&self, ray: &Ray) -> Option<(Hit, Hint)> {
+        let without = || Some((self.trees.shapes.closest_hit(ray)?, Hint::NONE));
+        let Some(tree) = &self.trees.wide else { return without() };
+        let mut hit = None;
+        let set = self.instructions;
+        let found = match self.arithmetic {
+            Arithmetic::Exact => search_along::<Located<'_, true>>(tree, ray, set, &mut hit),
+            Arithmetic::Float => search_along::<Located<'_, false>>(tree, ray, set, &mut hit),
+        };
+        match found {
+            Ok(()) | Err(NoAim::Missed) => {
+                let (hit, block) = hit?;
+                Some((hit, block.map_or(Hint::NONE, |block| tree.hint(block))))
+            }
+            Err(NoAim::OutOfRange) => without(),
+        }
+    }
+
+    /// [`any_hit`](Self::any_hit) for a ray that starts where `hint` comes from.
+    #[must_use]
+    pub fn any_hit_near(&self, ray: &Ray, hint: Hint) -> bool {
+        let Some(tree) = &self.trees.wide else { return self.trees.shapes.any_hit(ray) };
+        let mut is_hit = false;
+        let set = self.instructions;
+        let found = match self.arithmetic {
+            Arithmetic::Exact => search_near::<Any<true>>(tree, ray, hint, set, &mut is_hit),
+            Arithmetic::Float => search_near::<Any<false>>(tree, ray, hint, set, &mut is_hit),
         };
         match found {
             Ok(()) | Err(NoAim::Missed) => is_hit,

@@ -8,7 +8,9 @@
 mod aim;
 mod batch;
 mod block;
+mod climb;
 mod float;
+mod located;
 mod search;
 mod single;
 mod slab;
@@ -17,5 +19,6 @@ mod vector;
 
 pub(crate) use aim::NoAim;
 pub(crate) use batch::Batch;
+pub(crate) use located::Located;
 pub(crate) use search::{Any, Closest, Search};
-pub(crate) use single::search_along;
+pub(crate) use single::{search_along, search_near};
