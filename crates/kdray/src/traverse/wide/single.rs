@@ -58,6 +58,15 @@ impl<'a, Q: Search<'a>, const NEAR: bool> Kernel for Single<'a, '_, Q, NEAR> {
         stack.clear();
         let mut base = tree.home(hint);
         let mut next = if NEAR { base.link() } else { Link::ROOT };
+        if NEAR {
+            let span = Span::new(simd, &aim);
+            while !span.is_in(simd, base) {
+                let place = base.place();
+                base = tree.home_above(base);
+                let met = slabs.meet_but(simd, tree.node(base.link()), place);
+                stack.push(&met);
+            }
+        }
         loop {
             if !next.is_leaf() {
                 // A branch that is foretold rightly lets the next node be loaded before this one's
@@ -72,20 +81,7 @@ impl<'a, Q: Search<'a>, const NEAR: bool> Kernel for Single<'a, '_, Q, NEAR> {
                 continue;
             }
             if next == Link::END {
-                if !NEAR || Span::new(simd, &aim).is_in(simd, base) {
-                    break;
-                }
-                let place = base.place();
-                base = tree.home_above(base);
-                let met = slabs.meet_but(simd, tree.node(base.link()), place);
-                stack.clear();
-                next = if met.count == 0 {
-                    stack.pop(aim.t_far)
-                } else {
-                    stack.push_but_nearest(&met);
-                    met.nearest
-                };
-                continue;
+                break;
             }
             for index in 0..next.block_count() {
                 if search.visit(simd, tree.block(next, index), &mut aim) {

@@ -43,6 +43,14 @@ impl Stack {
         (self.t[place], Link::from_bits(self.links[place]))
     }
 
+    #[inline(always)]
+    pub(super) fn push<S: Lanes>(&mut self, met: &Met<S>) {
+        let room = self.len..self.len + 8;
+        self.t[room.clone()].copy_from_slice(met.lists.t.as_array());
+        self.links[room].copy_from_slice(met.lists.links.as_array());
+        self.len += met.count;
+    }
+
     /// Adds the children of a node but the nearest. There is always room for all eight: the layout
     /// sees to it.
     #[inline(always)]
