@@ -35,9 +35,16 @@ impl Contender for Kdray {
 
     fn kernels(&self) -> &'static [&'static str] {
         match self.preset {
-            Preset::Balanced => {
-                &["single", "batch", "hint", "single float", "batch float", "hint float"]
-            }
+            Preset::Balanced => &[
+                "single",
+                "batch",
+                "hint",
+                "batch hint",
+                "single float",
+                "batch float",
+                "hint float",
+                "batch hint float",
+            ],
             _ => &["single", "batch"],
         }
     }
@@ -73,8 +80,9 @@ impl Built for BuiltKdray {
             let rays = job.set.rays.iter().map(exact_ray).collect();
             return Some(Box::new(InBatches { scene, rays }));
         }
-        if kernel == "hint" {
-            return WithHints::new(scene, job).map(|trace| Box::new(trace) as Box<_>);
+        if let "hint" | "batch hint" = kernel {
+            return WithHints::new(scene, job, kernel == "batch hint")
+                .map(|trace| Box::new(trace) as Box<_>);
         }
         let for_any = scene.clone();
         let closest = move |ray: &Ray| found(scene.closest_hit(ray));
@@ -99,15 +107,17 @@ impl Trace for InBatches {
     }
 }
 
-/// Rays that are traced one by one, each from where its parent hit.
+/// Rays that are traced one by one or in batches, each from where its parent hit.
 struct WithHints {
     scene: Scene,
-    rays: Vec<(Ray, Hint)>,
+    rays: Vec<Ray>,
+    hints: Vec<Hint>,
+    in_batches: bool,
 }
 
 impl WithHints {
     /// Finds the hints; `None` for rays that do not ask for any hit, or have no parents.
-    fn new(scene: Scene, job: &Job<'_>) -> Option<Self> {
+    fn new(scene: Scene, job: &Job<'_>, in_batches: bool) -> Option<Self> {
         let set = job.set;
         if set.kind.question() != Question::Any || set.parents.is_empty() {
             return None;
@@ -116,17 +126,20 @@ impl WithHints {
             let parent = exact_ray(&job.primary.rays[parent as usize]);
             scene.closest_hit_with_hint(&parent).map_or(Hint::NONE, |(_, hint)| hint)
         };
-        let rays = set.rays.iter().map(exact_ray).zip(set.parents.iter().map(hint)).collect();
-        Some(Self { scene, rays })
+        let rays = set.rays.iter().map(exact_ray).collect();
+        let hints = set.parents.iter().map(hint).collect();
+        Some(Self { scene, rays, hints, in_batches })
     }
 }
 
 impl Trace for WithHints {
     fn trace(&mut self, answers: &mut Answers) {
-        if let Answers::Any(answers) = answers {
-            for (answer, (ray, hint)) in answers.iter_mut().zip(&self.rays) {
-                *answer = self.scene.any_hit_near(ray, *hint);
-            }
+        let Answers::Any(answers) = answers else { return };
+        if self.in_batches {
+            return self.scene.any_hits_near(&self.rays, &self.hints, answers);
+        }
+        for (answer, (ray, hint)) in answers.iter_mut().zip(self.rays.iter().zip(&self.hints)) {
+            *answer = self.scene.any_hit_near(ray, *hint);
         }
     }
 }

@@ -15,7 +15,7 @@ use arrayvec::ArrayVec;
 use bytemuck::allocation::zeroed_vec;
 
 /// Room on the kernels' stacks. A tree that needs more is not made wide.
-pub(crate) const STACK_SIZE: usize = 128;
+pub(crate) const STACK_SIZE: usize = 256;
 
 /// Half the distance from 1 to the next f32.
 const ROUNDING: f32 = f32::EPSILON / 2.0;
@@ -76,7 +76,9 @@ impl WideTree {
         let mut room = arena.room(&mut homes);
         let root = placer.place_node(0, &Site::ROOT, &plan.children, &mut room);
         debug_assert!(room.is_empty(), "the plan is wrong");
-        let fits = root.link == Link::ROOT && root.stack + WideNode::WIDTH <= STACK_SIZE;
+        // Twice, for those that begin below the root keep what is beside the way up on it.
+        let need = 2 * root.stack + WideNode::WIDTH;
+        let fits = root.link == Link::ROOT && need <= STACK_SIZE;
         Ok(fits.then(|| Self { homes: Homes::new(homes, &arena), arena, reach }))
     }
 

@@ -2,8 +2,9 @@
 
 use super::{Arithmetic, Scene};
 use crate::geometry::Ray;
+use crate::layout::Hint;
 use crate::primitives::Hit;
-use crate::traverse::wide::{Any, Batch, Closest, Search};
+use crate::traverse::wide::{Any, Batch, Closest, Near, Search, Start};
 use std::borrow::Borrow;
 
 impl Scene {
@@ -28,6 +29,18 @@ impl Scene {
     pub fn any_hits(&self, rays: &[Ray], found: &mut [bool]) {
         assert_eq!(rays.len(), found.len(), "as many answers as rays");
         self.each_any_hit(rays, |index, is_hit| found[index] = is_hit);
+    }
+
+    /// [`any_hit_near`](Self::any_hit_near) of each ray, on this thread: `found[i]` is that of `rays[i]`
+    /// near `hints[i]`. Allocates nothing.
+    ///
+    /// # Panics
+    /// If the slices differ in length.
+    pub fn any_hits_near(&self, rays: &[Ray], hints: &[Hint], found: &mut [bool]) {
+        assert_eq!(rays.len(), found.len(), "as many answers as rays");
+        assert_eq!(rays.len(), hints.len(), "as many hints as rays");
+        let rays = rays.iter().zip(hints).map(|(ray, &hint)| Near(ray, hint));
+        self.each_any(rays, |index, is_hit| found[index] = is_hit);
     }
 
     /// [`closest_hits`](Self::closest_hits) on all threads of the current rayon pool.
@@ -83,6 +96,10 @@ impl Scene {
         rays: impl IntoIterator<Item: Borrow<Ray>>,
         found: impl FnMut(usize, bool),
     ) {
+        self.each_any(rays, found);
+    }
+
+    fn each_any(&self, rays: impl IntoIterator<Item: Start>, found: impl FnMut(usize, bool)) {
         let one = |ray: &Ray| self.any_hit(ray);
         match self.arithmetic {
             Arithmetic::Exact => self.each::<Any<true>>(rays, one, found),
@@ -94,7 +111,7 @@ impl Scene {
     /// are so few that to begin with turns takes longer.
     fn each<'a, Q: Search<'a>>(
         &'a self,
-        rays: impl IntoIterator<Item: Borrow<Ray>>,
+        rays: impl IntoIterator<Item: Start>,
         one: impl Fn(&Ray) -> Q::Answer,
         mut found: impl FnMut(usize, Q::Answer),
     ) {
@@ -103,7 +120,7 @@ impl Scene {
         let few = rays.size_hint().1.is_some_and(|most| most <= FEW);
         match self.wide_tree().filter(|_| !few) {
             Some(tree) => self.instructions.run(Batch::<Q, _, _, _>::new(tree, rays, one, found)),
-            None => rays.enumerate().for_each(|(index, ray)| found(index, one(ray.borrow()))),
+            None => rays.enumerate().for_each(|(index, ray)| found(index, one(ray.ray()))),
         }
     }
 }

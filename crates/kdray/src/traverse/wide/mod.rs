@@ -15,6 +15,7 @@ mod search;
 mod single;
 mod slab;
 mod stack;
+mod start;
 mod vector;
 
 pub(crate) use aim::NoAim;
@@ -22,3 +23,4 @@ pub(crate) use batch::Batch;
 pub(crate) use located::Located;
 pub(crate) use search::{Any, Closest, Search};
 pub(crate) use single::{search_along, search_near};
+pub(crate) use start::{Near, Start};

@@ -1,7 +1,7 @@
 //! One ray through the wide tree.
 
 use super::aim::{Aim, NoAim};
-use super::climb::Span;
+use super::climb::climb;
 use super::search::Search;
 use super::slab::Slabs;
 use super::stack::Stack;
@@ -56,17 +56,7 @@ impl<'a, Q: Search<'a>, const NEAR: bool> Kernel for Single<'a, '_, Q, NEAR> {
         let mut slabs = Slabs::new(simd, &aim);
         let mut search = Q::new(ray);
         stack.clear();
-        let mut base = tree.home(hint);
-        let mut next = if NEAR { base.link() } else { Link::ROOT };
-        if NEAR {
-            let span = Span::new(simd, &aim);
-            while !span.is_in(simd, base) {
-                let place = base.place();
-                base = tree.home_above(base);
-                let met = slabs.meet_but(simd, tree.node(base.link()), place);
-                stack.push(&met);
-            }
-        }
+        let mut next = if NEAR { climb(simd, tree, hint, &aim, &slabs, stack) } else { Link::ROOT };
         loop {
             if !next.is_leaf() {
                 // A branch that is foretold rightly lets the next node be loaded before this one's

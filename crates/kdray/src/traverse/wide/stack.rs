@@ -43,6 +43,7 @@ impl Stack {
         (self.t[place], Link::from_bits(self.links[place]))
     }
 
+    /// Adds the children of a node. There is always room for all eight: the layout sees to it.
     #[inline(always)]
     pub(super) fn push<S: Lanes>(&mut self, met: &Met<S>) {
         let room = self.len..self.len + 8;
@@ -51,14 +52,11 @@ impl Stack {
         self.len += met.count;
     }
 
-    /// Adds the children of a node but the nearest. There is always room for all eight: the layout
-    /// sees to it.
+    /// Adds the children of a node but the nearest.
     #[inline(always)]
     pub(super) fn push_but_nearest<S: Lanes>(&mut self, met: &Met<S>) {
-        let room = self.len..self.len + 8;
-        self.t[room.clone()].copy_from_slice(met.lists.t.as_array());
-        self.links[room].copy_from_slice(met.lists.links.as_array());
-        self.len = self.len + met.count - 1;
+        self.push(met);
+        self.len -= 1;
     }
 
     /// Adds the children of a node, and takes the next that begins before `t_far`. Without a branch
