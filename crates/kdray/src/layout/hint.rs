@@ -11,6 +11,16 @@ pub struct Hint(pub(super) u32);
 impl Hint {
     /// No place: the search begins at the root.
     pub const NONE: Self = Self(u32::MAX);
+
+    /// A hint that was kept as a number. Of any other number it is a hint as well, but not a good one.
+    pub fn from_bits(bits: u32) -> Self {
+        Self(bits)
+    }
+
+    /// As a number, to be kept. It means something only to the scene that it comes from.
+    pub fn to_bits(self) -> u32 {
+        self.0
+    }
 }
 
 impl Default for Hint {
