@@ -1,19 +1,18 @@
 //! The memory of a wide tree: nodes and blocks between each other, in lines of 64 bytes.
 
 use super::home::{Home, Site};
+use super::size::{SLOT_BYTES, Size};
 use super::{TriangleBlock, WideNode};
 use bytemuck::allocation::zeroed_vec;
 use bytemuck::{Pod, Zeroable, must_cast, must_cast_ref};
-use std::iter::Sum;
-use std::ops::{Add, Mul};
 
 /// As much as a processor fetches at once.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 #[repr(C, align(64))]
-struct Line([u32; 16]);
+pub(super) struct Line([u32; 16]);
 
-const NODE_LINES: usize = size_of::<WideNode>() / size_of::<Line>();
-const BLOCK_LINES: usize = size_of::<TriangleBlock>() / size_of::<Line>();
+pub(super) const NODE_LINES: usize = size_of::<WideNode>() / size_of::<Line>();
+pub(super) const BLOCK_LINES: usize = size_of::<TriangleBlock>() / size_of::<Line>();
 
 /// Where a child of a wide node lies, in four bytes: a node, or the blocks of a leaf.
 ///
@@ -72,58 +71,6 @@ impl Link {
     #[inline(always)]
     fn line(self) -> usize {
         self.0 as usize & (Self::MOST_LINES - 1)
-    }
-}
-
-/// Nodes and blocks begin so many lines apart at the least, so that in each slot of as many lines at
-/// most one begins.
-const SLOT_LINES: usize = NODE_LINES;
-
-/// How much room something takes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Size {
-    pub(super) lines: usize,
-    pub(super) nodes: usize,
-}
-
-impl Size {
-    pub(super) const NODE: Self = Self { lines: NODE_LINES, nodes: 1 };
-
-    /// That of so many blocks.
-    pub(super) fn of_blocks(count: usize) -> Self {
-        Self { lines: count * BLOCK_LINES, nodes: 0 }
-    }
-
-    /// How many slots there are in so many lines.
-    pub(super) fn slots(&self) -> usize {
-        self.lines.div_ceil(SLOT_LINES)
-    }
-
-    /// How many bytes an arena of that size takes.
-    pub(super) fn bytes(&self) -> usize {
-        self.lines * size_of::<Line>()
-    }
-}
-
-impl Add for Size {
-    type Output = Self;
-
-    fn add(self, other: Self) -> Self {
-        Self { lines: self.lines + other.lines, nodes: self.nodes + other.nodes }
-    }
-}
-
-impl Mul<Size> for usize {
-    type Output = Size;
-
-    fn mul(self, size: Size) -> Size {
-        Size { lines: self * size.lines, nodes: self * size.nodes }
-    }
-}
-
-impl Sum for Size {
-    fn sum<I: Iterator<Item = Self>>(sizes: I) -> Self {
-        sizes.fold(Self::default(), Add::add)
     }
 }
 
@@ -206,7 +153,7 @@ impl Arena {
     }
 
     pub(super) fn slot_count(&self) -> usize {
-        self.lines.len().div_ceil(SLOT_LINES)
+        Size { lines: self.lines.len(), nodes: 0 }.slots()
     }
 
     /// The slot in which a block begins; of a block elsewhere anything. From its address, so that
@@ -214,7 +161,7 @@ impl Arena {
     pub(super) fn slot_of(&self, block: &TriangleBlock) -> usize {
         let begin = self.lines.as_ptr().addr();
         let bytes = std::ptr::from_ref(block).addr().wrapping_sub(begin);
-        bytes / (SLOT_LINES * size_of::<Line>())
+        bytes / SLOT_BYTES
     }
 
     pub(super) fn bytes(&self) -> usize {

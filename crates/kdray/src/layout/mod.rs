@@ -11,6 +11,7 @@ mod home;
 mod homes;
 mod node;
 mod plan;
+mod size;
 mod wide;
 
 pub(crate) use arena::Link;

@@ -1,7 +1,8 @@
 //! How much room the parts of a wide tree take, before any of them is placed.
 
-use super::arena::{Link, Size};
+use super::arena::Link;
 use super::collapse::Treelet;
+use super::size::Size;
 use super::{TriangleBlock, WideNode};
 use crate::build::parallel::map_all;
 use crate::geometry::Aabb;

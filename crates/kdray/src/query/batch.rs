@@ -2,9 +2,8 @@
 
 use super::{Arithmetic, Scene};
 use crate::geometry::Ray;
-use crate::layout::Hint;
 use crate::primitives::Hit;
-use crate::traverse::wide::{Any, Batch, Closest, Near, Search, Start};
+use crate::traverse::wide::{Any, Batch, Closest, Search, Start};
 use std::borrow::Borrow;
 
 impl Scene {
@@ -29,18 +28,6 @@ impl Scene {
     pub fn any_hits(&self, rays: &[Ray], found: &mut [bool]) {
         assert_eq!(rays.len(), found.len(), "as many answers as rays");
         self.each_any_hit(rays, |index, is_hit| found[index] = is_hit);
-    }
-
-    /// [`any_hit_near`](Self::any_hit_near) of each ray, on this thread: `found[i]` is that of `rays[i]`
-    /// near `hints[i]`. Allocates nothing.
-    ///
-    /// # Panics
-    /// If the slices differ in length.
-    pub fn any_hits_near(&self, rays: &[Ray], hints: &[Hint], found: &mut [bool]) {
-        assert_eq!(rays.len(), found.len(), "as many answers as rays");
-        assert_eq!(rays.len(), hints.len(), "as many hints as rays");
-        let rays = rays.iter().zip(hints).map(|(ray, &hint)| Near(ray, hint));
-        self.each_any(rays, |index, is_hit| found[index] = is_hit);
     }
 
     /// [`closest_hits`](Self::closest_hits) on all threads of the current rayon pool.
@@ -99,7 +86,11 @@ impl Scene {
         self.each_any(rays, found);
     }
 
-    fn each_any(&self, rays: impl IntoIterator<Item: Start>, found: impl FnMut(usize, bool)) {
+    pub(super) fn each_any(
+        &self,
+        rays: impl IntoIterator<Item: Start>,
+        found: impl FnMut(usize, bool),
+    ) {
         let one = |ray: &Ray| self.any_hit(ray);
         match self.arithmetic {
             Arithmetic::Exact => self.each::<Any<true>>(rays, one, found),
