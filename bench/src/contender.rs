@@ -112,7 +112,6 @@ pub(crate) struct Job<'a> {
     pub(crate) set: &'a RaySet,
     /// All primary rays, which the set's parents are indices into: a kernel may find their hits
     /// while it prepares, and start each ray with what it kept of its parent's.
-    #[expect(dead_code, reason = "no kernel keeps anything of a hit yet")]
     pub(crate) primary: &'a RaySet,
 }
 

@@ -5,11 +5,13 @@ use kdray::geometry::BoundingSphere;
 use kdray::simd::UnknownInstructionSet;
 use kdray::traverse::Naive;
 use kdray::{
-    BuildOptions, CostModel, Hit, InstructionSet, KdTree, Scene, ShapeScene, TriangleMesh,
+    BuildOptions, CostModel, Hint, Hit, InstructionSet, KdTree, Ray, Scene, ShapeScene,
+    TriangleMesh,
 };
 use kdray_tests::Subject;
 use kdray_tests::oracle::{agrees_on_all, agrees_on_closest};
-use kdray_tests::rays::Archer;
+use kdray_tests::rays::{Archer, random};
+use rand::{Rng, RngExt};
 use rayon::prelude::*;
 
 /// How many rays are aimed along the split planes of each tree.
@@ -180,6 +182,50 @@ pub(crate) fn kernel_any_hit(scene: &Scene, aimed: &[&Aimed<3>]) -> Result<(), S
         same(&in_batch, &naive).map_err(|error| format!("{ray:?} in a batch: {error}"))?;
     }
     Ok(())
+}
+
+/// Whether the kernels find anything if they begin at hints: of the ray's own hit, of another's, and
+/// any numbers; for the rays, and for rays of any length off their hits.
+pub(crate) fn kernel_any_hit_near(scene: &Scene, aimed: &[&Aimed<3>]) -> Result<(), String> {
+    let mut random = random(aimed.len() as u64);
+    let (mut rays, mut hints, mut naive) = (Vec::new(), Vec::new(), Vec::new());
+    let mut add = |ray: Ray, hint: Hint, is_hit: bool| {
+        rays.push(ray);
+        hints.push(hint);
+        naive.push(is_hit);
+    };
+    let mut other = Hint::NONE;
+    for aimed in aimed {
+        let hinted = scene.closest_hit_with_hint(&aimed.ray);
+        same(&hinted.map(|(hit, _)| hit), &aimed.touched.naive.first().copied())?;
+        let is_hit = !aimed.touched.naive.is_empty();
+        for hint in [other, Hint::NONE, Hint::from_bits(random.random_range(0..200))] {
+            add(aimed.ray, hint, is_hit);
+        }
+        if let Some((hit, hint)) = hinted {
+            add(aimed.ray, hint, is_hit);
+            let off = off(&aimed.ray, hit.t, &mut random);
+            add(off, hint, scene.shapes().naive().any_hit(&off));
+            other = hint;
+        }
+    }
+    let mut batch = vec![false; rays.len()];
+    scene.any_hits_near(&rays, &hints, &mut batch);
+    for (((ray, hint), naive), in_batch) in rays.iter().zip(hints).zip(naive).zip(batch) {
+        let told = |error| format!("{ray:?} near {hint:?}: {error}");
+        same(&scene.any_hit_near(ray, hint), &naive).map_err(told)?;
+        same(&in_batch, &naive).map_err(told)?;
+    }
+    Ok(())
+}
+
+/// A ray off the hit of another, in any direction, from very short to without end.
+fn off(ray: &Ray, t: f64, random: &mut impl Rng) -> Ray {
+    let origin = std::array::from_fn(|k| ray.origin[k] + t * ray.direction[k]);
+    let direction = [0; 3].map(|_| random.random_range(-1.0..1.0));
+    let length = t.abs() * 10.0_f64.powi(random.random_range(-6..6));
+    let t_min = random.random_range(0.0..2.0) * 1e-3 * length;
+    Ray::new(origin, direction).with_interval(t_min, length)
 }
 
 /// The naive answer, with a sphere for the bounding volume that is tested first.

@@ -7,7 +7,7 @@ mod checks;
 
 use cases::{BALLS_2D, BALLS_3D, SEGMENTS, TRIANGLES};
 use checks::{all_hits, all_touched, any_hit, closest_hit, count};
-use checks::{kernel_any_hit, kernel_closest_hit};
+use checks::{kernel_any_hit, kernel_any_hit_near, kernel_closest_hit};
 use kdray::build::SahBuilder;
 use kdray::{BuildOptions, Preset, Strategy};
 
@@ -50,6 +50,12 @@ macro_rules! kernels {
                     fn any_hit() {
                         let set = stringify!($instructions);
                         checks::on_each_mesh(&options(), &TRIANGLES, set, kernel_any_hit);
+                    }
+
+                    #[test]
+                    fn any_hit_near() {
+                        let set = stringify!($instructions);
+                        checks::on_each_mesh(&options(), &TRIANGLES, set, kernel_any_hit_near);
                     }
                 }
             )*

@@ -2,12 +2,13 @@
 
 use crate::contender::{Answers, Built, Contender, Found, Job, Trace, TreeBytes, one_by_one};
 use crate::error::BenchError;
+use crate::rays::Question;
 use crate::reference::exact_ray;
 use crate::workers::Workers;
 use kdray::build::Preset;
 use kdray::layout::WideTree;
 use kdray::{
-    Arithmetic, BuildOptions, CostModel, Hit, KdTree, Ray, Scene, ShapeScene, Strategy,
+    Arithmetic, BuildOptions, CostModel, Hint, Hit, KdTree, Ray, Scene, ShapeScene, Strategy,
     TriangleMesh,
 };
 
@@ -34,7 +35,16 @@ impl Contender for Kdray {
 
     fn kernels(&self) -> &'static [&'static str] {
         match self.preset {
-            Preset::Balanced => &["single", "batch", "single float", "batch float"],
+            Preset::Balanced => &[
+                "single",
+                "batch",
+                "hint",
+                "batch hint",
+                "single float",
+                "batch float",
+                "hint float",
+                "batch hint float",
+            ],
             _ => &["single", "batch"],
         }
     }
@@ -70,6 +80,10 @@ impl Built for BuiltKdray {
             let rays = job.set.rays.iter().map(exact_ray).collect();
             return Some(Box::new(InBatches { scene, rays }));
         }
+        if let "hint" | "batch hint" = kernel {
+            return WithHints::new(scene, job, kernel == "batch hint")
+                .map(|trace| Box::new(trace) as Box<_>);
+        }
         let for_any = scene.clone();
         let closest = move |ray: &Ray| found(scene.closest_hit(ray));
         one_by_one(job, exact_ray, closest, move |ray| for_any.any_hit(ray))
@@ -89,6 +103,43 @@ impl Trace for InBatches {
                 self.scene.each_closest_hit(&self.rays, |index, hit| answers[index] = found(hit));
             }
             Answers::Any(answers) => self.scene.any_hits(&self.rays, answers),
+        }
+    }
+}
+
+/// Rays that are traced one by one or in batches, each from where its parent hit.
+struct WithHints {
+    scene: Scene,
+    rays: Vec<Ray>,
+    hints: Vec<Hint>,
+    in_batches: bool,
+}
+
+impl WithHints {
+    /// Finds the hints; `None` for rays that do not ask for any hit, or have no parents.
+    fn new(scene: Scene, job: &Job<'_>, in_batches: bool) -> Option<Self> {
+        let set = job.set;
+        if set.kind.question() != Question::Any || set.parents.is_empty() {
+            return None;
+        }
+        let hint = |&parent: &u32| {
+            let parent = exact_ray(&job.primary.rays[parent as usize]);
+            scene.closest_hit_with_hint(&parent).map_or(Hint::NONE, |(_, hint)| hint)
+        };
+        let rays = set.rays.iter().map(exact_ray).collect();
+        let hints = set.parents.iter().map(hint).collect();
+        Some(Self { scene, rays, hints, in_batches })
+    }
+}
+
+impl Trace for WithHints {
+    fn trace(&mut self, answers: &mut Answers) {
+        let Answers::Any(answers) = answers else { return };
+        if self.in_batches {
+            return self.scene.any_hits_near(&self.rays, &self.hints, answers);
+        }
+        for (answer, (ray, hint)) in answers.iter_mut().zip(self.rays.iter().zip(&self.hints)) {
+            *answer = self.scene.any_hit_near(ray, *hint);
         }
     }
 }

@@ -20,6 +20,7 @@ pub mod tree;
 
 pub use build::{BuildError, BuildOptions, BuildProgress, CostModel, Preset, Strategy};
 pub use geometry::{Aabb, Interval, Ray, RayError};
+pub use layout::Hint;
 pub use primitives::{Hit, MeshError, Side, TriangleMesh};
 pub use query::{Arithmetic, Scene, ShapeScene};
 pub use simd::InstructionSet;

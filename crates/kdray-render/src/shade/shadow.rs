@@ -15,7 +15,7 @@ pub(crate) const SHORT_OF_LIGHT: f64 = 1.0 - 1.0 / (1u64 << 32) as f64;
 /// light pass straight on, as if it were not bent, less what they mirror and absorb.
 pub(super) fn transmittances(world: &World, rays: &[Ray], mut found: impl FnMut(usize, Vec3)) {
     let scene = world.scene();
-    let each = rays.iter().copied();
+    let each = rays;
     if world.lets_light_through() {
         scene.each_closest_hit(each, |index, first| {
             found(index, first.map_or(Vec3::ONE, |hit| past(world, &rays[index], &hit)));

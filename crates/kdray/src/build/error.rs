@@ -15,13 +15,14 @@ pub enum BuildError {
     CostModel(#[from] CostModelError),
     /// More memory would be needed than the options allow.
     #[error(
-        "the build needs about {} GB of memory, but {} GB is the limit; take the preset fast or \
-         balanced rather than best or a strategy, or raise the limit",
+        "the build needs about {} GB of memory, but {} GB is the limit; take the preset fast, \
+         split the mesh, or raise the limit",
         gigabytes(*needed),
         gigabytes(*limit)
     )]
     Memory {
-        /// How many bytes it is expected to take: [`BuildOptions::peak_bytes`].
+        /// How many bytes it is expected to take: [`BuildOptions::peak_bytes`], or once the canonical
+        /// tree is there, what both trees take.
         ///
         /// [`BuildOptions::peak_bytes`]: super::BuildOptions::peak_bytes
         needed: u64,

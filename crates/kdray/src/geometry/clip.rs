@@ -45,7 +45,7 @@ pub fn clipped_bounds<const K: usize>(polygon: &[[f32; K]], cell: &Aabb<K>) -> O
 
 /// The smallest boxes, rounded outward, of the parts of a convex polygon (or segment) that lie in
 /// the two closed boxes into which the plane at `position` perpendicular to `axis` cuts `cell`:
-/// what [`clipped_bounds`] says of each, at a third of the price. The polygon is cut at the cell's
+/// what [`clipped_bounds`] says of each for less. The polygon is cut at the cell's
 /// faces once for both, and not at all where it lies in the cell, which is the usual case; of the
 /// last cut only the bounds are reckoned.
 ///

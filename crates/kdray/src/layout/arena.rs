@@ -1,5 +1,7 @@
 //! The memory of a wide tree: nodes and blocks between each other, in lines of 64 bytes.
 
+use super::home::{Home, Site};
+use super::size::{SLOT_BYTES, Size};
 use super::{TriangleBlock, WideNode};
 use bytemuck::allocation::zeroed_vec;
 use bytemuck::{Pod, Zeroable, must_cast, must_cast_ref};
@@ -7,10 +9,10 @@ use bytemuck::{Pod, Zeroable, must_cast, must_cast_ref};
 /// As much as a processor fetches at once.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 #[repr(C, align(64))]
-struct Line([u32; 16]);
+pub(super) struct Line([u32; 16]);
 
 pub(super) const NODE_LINES: usize = size_of::<WideNode>() / size_of::<Line>();
-const BLOCK_LINES: usize = size_of::<TriangleBlock>() / size_of::<Line>();
+pub(super) const BLOCK_LINES: usize = size_of::<TriangleBlock>() / size_of::<Line>();
 
 /// Where a child of a wide node lies, in four bytes: a node, or the blocks of a leaf.
 ///
@@ -22,7 +24,8 @@ impl Link {
     /// A leaf of more blocks is cut into several.
     pub(crate) const MOST_BLOCKS: usize = 7;
 
-    /// Arenas of more lines, 16 GiB, cannot be linked.
+    /// Arenas of so many lines, 16 GiB, or more cannot be linked: the link behind the last block must
+    /// not carry into the number of blocks.
     pub(super) const MOST_LINES: usize = 1 << 28;
 
     /// The tree's first node.
@@ -78,39 +81,43 @@ pub(super) struct Arena {
     lines: Vec<Line>,
 }
 
-/// Lines of an arena that are yet to be filled, from the first on.
+/// Lines of an arena and homes that are yet to be filled, from the first on.
 pub(super) struct Room<'a> {
     lines: &'a mut [Line],
-    /// The number of the first line in the arena.
-    first: usize,
+    homes: &'a mut [Home],
+    /// How much lies before.
+    first: Size,
 }
 
 /// The place of a node whose children are being placed.
-pub(super) struct NodeRoom<'a>(&'a mut [Line]);
-
-/// How many lines so many blocks take.
-pub(super) fn leaf_lines(blocks: usize) -> usize {
-    blocks * BLOCK_LINES
+pub(super) struct NodeRoom<'a> {
+    lines: &'a mut [Line],
+    pub(super) link: Link,
+    /// The number of the node's home.
+    pub(super) home: u32,
 }
 
 impl<'a> Room<'a> {
-    /// Takes the first lines away.
-    pub(super) fn take(&mut self, lines: usize) -> Self {
-        let (taken, rest) = std::mem::take(&mut self.lines).split_at_mut(lines);
-        let taken = Self { lines: taken, first: self.first };
-        (self.lines, self.first) = (rest, self.first + lines);
+    /// Takes the first part away.
+    pub(super) fn take(&mut self, size: Size) -> Self {
+        let (lines, other_lines) = std::mem::take(&mut self.lines).split_at_mut(size.lines);
+        let (homes, other_homes) = std::mem::take(&mut self.homes).split_at_mut(size.nodes);
+        let taken = Self { lines, homes, first: self.first };
+        *self = Self { lines: other_lines, homes: other_homes, first: self.first + size };
         taken
     }
 
     /// Whether all of it was taken.
     pub(super) fn is_empty(&self) -> bool {
-        self.lines.is_empty()
+        self.lines.is_empty() && self.homes.is_empty()
     }
 
-    /// Takes the room of a node, to be filled when its children are placed.
-    pub(super) fn take_node(&mut self) -> (Link, NodeRoom<'a>) {
-        let Room { lines, first } = self.take(NODE_LINES);
-        (Link(first as u32), NodeRoom(lines))
+    /// Takes the room of a node, to be filled when its children are placed, and puts its home.
+    pub(super) fn take_node(&mut self, site: &Site, pad: f64) -> NodeRoom<'a> {
+        let Room { lines, homes, first } = self.take(Size::NODE);
+        let link = Link(first.lines as u32);
+        homes.fill(Home::new(site, link, pad));
+        NodeRoom { lines, link, home: first.nodes as u32 }
     }
 
     /// Puts the blocks of a leaf.
@@ -119,36 +126,48 @@ impl<'a> Room<'a> {
         blocks: impl ExactSizeIterator<Item = TriangleBlock>,
     ) -> Link {
         let count = blocks.len();
-        let Room { lines, first } = self.take(leaf_lines(count));
+        let Room { lines, first, .. } = self.take(Size::of_blocks(count));
         for (place, block) in lines.chunks_exact_mut(BLOCK_LINES).zip(blocks) {
             let block: [Line; BLOCK_LINES] = must_cast(block);
             place.copy_from_slice(&block);
         }
-        Link::leaf(first, count)
+        Link::leaf(first.lines, count)
     }
 }
 
 impl NodeRoom<'_> {
     pub(super) fn put(self, node: WideNode) {
         let node: [Line; NODE_LINES] = must_cast(node);
-        self.0.copy_from_slice(&node);
+        self.lines.copy_from_slice(&node);
     }
 }
 
 impl Arena {
-    /// How many bytes an arena of so many lines takes.
-    pub(super) fn bytes_of(lines: usize) -> usize {
-        lines * size_of::<Line>()
+    /// Whether so many lines are few enough to be linked.
+    pub(super) fn can_link(lines: usize) -> bool {
+        lines < Link::MOST_LINES
     }
 
-    /// An arena of so many lines; `None` if they are too many to be linked.
-    pub(super) fn new(lines: usize) -> Option<Self> {
-        (lines <= Link::MOST_LINES).then(|| Self { lines: zeroed_vec(lines) })
+    /// An arena of so many lines.
+    pub(super) fn new(lines: usize) -> Self {
+        Self { lines: zeroed_vec(lines) }
     }
 
-    /// All of it.
-    pub(super) fn room(&mut self) -> Room<'_> {
-        Room { lines: &mut self.lines, first: 0 }
+    /// All of it, with as many homes as it has nodes.
+    pub(super) fn room<'a>(&'a mut self, homes: &'a mut [Home]) -> Room<'a> {
+        Room { lines: &mut self.lines, homes, first: Size::default() }
+    }
+
+    pub(super) fn slot_count(&self) -> usize {
+        Size { lines: self.lines.len(), nodes: 0 }.slots()
+    }
+
+    /// The slot in which a block begins; of a block elsewhere anything. From its address, so that
+    /// nobody need keep more of a block than a reference.
+    pub(super) fn slot_of(&self, block: &TriangleBlock) -> usize {
+        let begin = self.lines.as_ptr().addr();
+        let bytes = std::ptr::from_ref(block).addr().wrapping_sub(begin);
+        bytes / SLOT_BYTES
     }
 
     pub(super) fn bytes(&self) -> usize {

@@ -6,13 +6,19 @@
 mod arena;
 mod block;
 mod collapse;
+mod hint;
+mod home;
+mod homes;
 mod node;
 mod plan;
+mod size;
 mod treelet;
 mod wide;
 
 pub(crate) use arena::Link;
 pub(crate) use block::TriangleBlock;
+pub use hint::Hint;
+pub(crate) use home::Home;
 pub(crate) use node::WideNode;
 pub(crate) use wide::STACK_SIZE;
 pub use wide::WideTree;

@@ -1,7 +1,8 @@
 //! How much room the parts of a wide tree take, before any of them is placed.
 
-use super::arena::{Link, NODE_LINES, leaf_lines};
+use super::arena::Link;
 use super::collapse::Collapse;
+use super::size::Size;
 use super::treelet::Treelet;
 use super::{TriangleBlock, WideNode};
 use crate::build::parallel::map_all;
@@ -13,8 +14,8 @@ const MOST: usize = Link::MOST_BLOCKS * TriangleBlock::WIDTH;
 /// The room of a subtree, so that its parts can be placed at once, each where it would stand if they
 /// were placed one after the other.
 pub(super) struct Plan {
-    /// The lines of its nodes and blocks.
-    pub(super) lines: usize,
+    /// That of its nodes and blocks.
+    pub(super) size: Size,
     /// The plans of those children that are nodes, in order; none if all of it is placed in one go.
     pub(super) children: Vec<Plan>,
 }
@@ -34,40 +35,40 @@ impl Plan {
 
     fn of_node(collapse: &Collapse<'_>, node: u32, levels: usize) -> Self {
         if levels == 0 {
-            return Self { lines: lines_of_node(collapse, node), children: Vec::new() };
+            return Self { size: size_of_node(collapse, node), children: Vec::new() };
         }
-        let mut lines = NODE_LINES;
+        let mut size = Size::NODE;
         let mut inner = Vec::new();
         for &end in &Treelet::new(collapse, node).ends {
             match collapse.tree.nodes()[end as usize].kind() {
-                NodeKind::Leaf { count, .. } => lines += lines_of_leaf(count as usize),
+                NodeKind::Leaf { count, .. } => size = size + size_of_leaf(count as usize),
                 NodeKind::Inner { .. } => inner.push(end),
             }
         }
         let children = map_all(inner, |end| Self::of_node(collapse, end, levels - 1));
-        lines += children.iter().map(|child| child.lines).sum::<usize>();
-        Self { lines, children }
+        let below: Size = children.iter().map(|child| child.size).sum();
+        Self { size: size + below, children }
     }
 }
 
-fn lines_of_node(collapse: &Collapse<'_>, node: u32) -> usize {
+fn size_of_node(collapse: &Collapse<'_>, node: u32) -> Size {
     let ends = Treelet::new(collapse, node).ends;
     let below = ends.iter().map(|&end| match collapse.tree.nodes()[end as usize].kind() {
-        NodeKind::Leaf { count, .. } => lines_of_leaf(count as usize),
-        NodeKind::Inner { .. } => lines_of_node(collapse, end),
+        NodeKind::Leaf { count, .. } => size_of_leaf(count as usize),
+        NodeKind::Inner { .. } => size_of_node(collapse, end),
     });
-    NODE_LINES + below.sum::<usize>()
+    Size::NODE + below.sum()
 }
 
-/// The lines of a leaf of `count` triangles, and of the nodes above them if there are too many for
+/// The size of a leaf of `count` triangles, and of the nodes above them if there are too many for
 /// one link.
-fn lines_of_leaf(count: usize) -> usize {
+fn size_of_leaf(count: usize) -> Size {
     let Some(part) = part_of_leaf(count) else {
-        return leaf_lines(count.div_ceil(TriangleBlock::WIDTH));
+        return Size::of_blocks(count.div_ceil(TriangleBlock::WIDTH));
     };
     let rest = count % part;
-    let rest = if rest == 0 { 0 } else { lines_of_leaf(rest) };
-    NODE_LINES + count / part * lines_of_leaf(part) + rest
+    let rest = if rest == 0 { Size::default() } else { size_of_leaf(rest) };
+    Size::NODE + count / part * size_of_leaf(part) + rest
 }
 
 /// How many triangles each child of a node gets, if `count` are too many for one link.

@@ -22,6 +22,7 @@ pub(super) struct Treelet {
 struct Cut {
     node: u32,
     axis: usize,
+    split: f32,
     lower: u32,
     upper: u32,
 }
@@ -38,17 +39,33 @@ impl Treelet {
     /// Adds a node that is not empty in so many places.
     fn add(&mut self, collapse: &Collapse<'_>, node: u32, places: usize) {
         let Collapse { tree, boxes, .. } = collapse;
-        if let NodeKind::Inner { axis, above, .. } = tree.nodes()[node as usize].kind()
+        if let NodeKind::Inner { axis, split, above } = tree.nodes()[node as usize].kind()
             && let share @ 1.. = collapse.share(node, places)
             && let Some(lower) = filled(tree, boxes, node + 1)
             && let Some(upper) = filled(tree, boxes, above)
         {
-            self.cuts.push(Cut { node, axis, lower, upper });
+            self.cuts.push(Cut { node, axis, split, lower, upper });
             self.add(collapse, lower, share);
             self.add(collapse, upper, places - share);
         } else {
             self.ends.push(node);
         }
+    }
+
+    /// The cell of an end, with the empty ones beside it that nothing is in; `cell` is the treelet's.
+    pub(super) fn cell(&self, end: u32, mut cell: Aabb<3>) -> Aabb<3> {
+        let mut at = self.cuts.first().map(|cut| cut.node);
+        for cut in &self.cuts {
+            if at != Some(cut.node) {
+                continue;
+            }
+            // All nodes below the upper child come behind it, all below the lower one before it.
+            let is_above = end >= cut.upper;
+            let (below, above) = cell.split(cut.axis, cut.split);
+            cell = if is_above { above } else { below };
+            at = Some(if is_above { cut.upper } else { cut.lower });
+        }
+        cell
     }
 
     /// The places of the ends, farthest first, for rays whose direction is in `octant`.

@@ -2,19 +2,22 @@
 
 use super::arena::{Arena, Link, Room};
 use super::collapse::Collapse;
+use super::home::{Home, Site};
+use super::homes::Homes;
 use super::plan::{Plan, part_of_leaf};
 use super::treelet::Treelet;
-use super::{TriangleBlock, WideNode};
+use super::{Hint, TriangleBlock, WideNode};
 use crate::build::parallel::map_all;
 use crate::build::{BuildError, BuildOptions};
 use crate::geometry::Aabb;
 use crate::primitives::TriangleMesh;
 use crate::tree::{KdTree, NodeKind};
 use arrayvec::ArrayVec;
+use bytemuck::allocation::zeroed_vec;
 
 /// Room on the kernels' stacks, of which one place is for the end. A tree that needs more is not
 /// made wide.
-pub(crate) const STACK_SIZE: usize = 128;
+pub(crate) const STACK_SIZE: usize = 256;
 
 /// Half the distance from 1 to the next f32.
 const ROUNDING: f32 = f32::EPSILON / 2.0;
@@ -28,6 +31,7 @@ const ROUNDING: f32 = f32::EPSILON / 2.0;
 #[derive(Clone, Debug)]
 pub struct WideTree {
     arena: Arena,
+    pub(super) homes: Homes,
     reach: f32,
 }
 
@@ -48,7 +52,7 @@ impl WideTree {
     /// The wide form of `tree`, which is one over `mesh`; `boxes` are those around the parts of the
     /// triangles that are listed below each node. `None` if the mesh is larger than 2^32 or smaller
     /// than 2^-32, for the kernels' numbers are f32, or if the tree is larger than 16 GiB or
-    /// degenerate.
+    /// needs more than the kernels' stacks.
     ///
     /// # Errors
     /// [`BuildError::Memory`] if both trees would take more than the options allow: how many leaves
@@ -65,14 +69,21 @@ impl WideTree {
         let plan = Plan::new(collapse);
         let held =
             size_of_val(tree.nodes()) + size_of_val(&tree.references[..]) + size_of_val(boxes);
-        options.check_memory((held + Arena::bytes_of(plan.lines)) as u64)?;
-        let Some(mut arena) = Arena::new(plan.lines) else { return Ok(None) };
+        if !Arena::can_link(plan.size.lines) {
+            return Ok(None);
+        }
+        let own = plan.size.bytes() + Homes::bytes_of(plan.size.slots(), plan.size.nodes);
+        options.check_memory((held + own) as u64)?;
+        let mut arena = Arena::new(plan.size.lines);
+        let mut homes = zeroed_vec::<Home>(plan.size.nodes);
         let placer = Placer { mesh, collapse, pad };
-        let mut room = arena.room();
-        let root = placer.place_node(0, &plan.children, &mut room);
+        let mut room = arena.room(&mut homes);
+        let root = placer.place_node(0, &Site::ROOT, &plan.children, &mut room);
         debug_assert!(room.is_empty(), "the plan is wrong");
-        let fits = root.link == Link::ROOT && root.stack + 1 + WideNode::WIDTH <= STACK_SIZE;
-        Ok(fits.then_some(Self { arena, reach }))
+        // Twice, for those that begin below the root keep what is beside the way up on it.
+        let need = 2 * root.stack + 1 + WideNode::WIDTH;
+        debug_assert_eq!(root.link, Link::ROOT);
+        Ok((need <= STACK_SIZE).then(|| Self { homes: Homes::new(homes, &arena), arena, reach }))
     }
 
     /// How far from zero, on any axis, a ray may start so that the boxes' margins cover what
@@ -83,7 +94,7 @@ impl WideTree {
 
     /// How much memory the tree takes, in bytes.
     pub fn bytes(&self) -> usize {
-        self.arena.bytes()
+        self.arena.bytes() + self.homes.bytes()
     }
 
     #[inline(always)]
@@ -94,6 +105,23 @@ impl WideTree {
     #[inline(always)]
     pub(crate) fn block(&self, link: Link, index: usize) -> &TriangleBlock {
         self.arena.block(link, index)
+    }
+
+    /// The home of the node to begin at.
+    #[inline(always)]
+    pub(crate) fn home(&self, hint: Hint) -> &Home {
+        self.homes.of_hint(hint)
+    }
+
+    /// The home of the node above.
+    #[inline(always)]
+    pub(crate) fn home_above(&self, home: &Home) -> &Home {
+        self.homes.above(home)
+    }
+
+    /// The hint of a hit in one of the tree's blocks.
+    pub(crate) fn hint(&self, block: &TriangleBlock) -> Hint {
+        self.homes.hint(&self.arena, block)
     }
 }
 
@@ -110,29 +138,28 @@ fn reach(bounds: &Aabb<3>) -> Option<f32> {
 impl Placer<'_> {
     /// Places a node of the binary tree as a wide one, then all below it: those of its children that
     /// are nodes at once if there are `plans` for them.
-    fn place_node(&self, root: u32, plans: &[Plan], room: &mut Room<'_>) -> Placed {
+    fn place_node(&self, root: u32, site: &Site, plans: &[Plan], room: &mut Room<'_>) -> Placed {
         let treelet = Treelet::new(self.collapse, root);
-        let (link, place) = room.take_node();
+        let node_room = room.take_node(site, self.pad);
         let mut placed = ArrayVec::<_, { WideNode::WIDTH }>::new();
         let (mut tasks, mut plans) = (Vec::new(), plans.iter());
-        for &end in &treelet.ends {
+        for (place, &end) in treelet.ends.iter().enumerate() {
+            let cell = treelet.cell(end, site.cell);
+            let site = Site { cell, parent: node_room.home, place };
             let is_leaf =
                 matches!(self.collapse.tree.nodes()[end as usize].kind(), NodeKind::Leaf { .. });
             placed.push(if is_leaf {
-                Some(self.place_leaf(
-                    self.collapse.tree.leaf_primitives(end),
-                    &self.padded(end),
-                    room,
-                ))
+                let ids = self.collapse.tree.leaf_primitives(end);
+                Some(self.place_leaf(ids, &site, &self.padded(end), room))
             } else if let Some(plan) = plans.next() {
-                tasks.push((end, plan, room.take(plan.lines)));
+                tasks.push((end, site, plan, room.take(plan.size)));
                 None
             } else {
-                Some(self.place_node(end, &[], room))
+                Some(self.place_node(end, &site, &[], room))
             });
         }
-        let place_apart = |(end, plan, mut room): (u32, &Plan, Room<'_>)| {
-            let placed = self.place_node(end, &plan.children, &mut room);
+        let place_apart = |(end, site, plan, mut room): (u32, Site, &Plan, Room<'_>)| {
+            let placed = self.place_node(end, &site, &plan.children, &mut room);
             debug_assert!(room.is_empty(), "the plan is wrong");
             placed
         };
@@ -149,27 +176,36 @@ impl Placer<'_> {
         for octant in 0..8 {
             node.set_order(octant, &treelet.far_to_near(octant));
         }
-        place.put(node);
+        let link = node_room.link;
+        node_room.put(node);
         Placed { link, stack: stack + treelet.ends.len().saturating_sub(1) }
     }
 
     /// Places the triangles of a leaf; too many for one link below a node of their own.
-    fn place_leaf(&self, ids: &[u32], bounds: &Aabb<3>, room: &mut Room<'_>) -> Placed {
+    fn place_leaf(
+        &self,
+        ids: &[u32],
+        site: &Site,
+        bounds: &Aabb<3>,
+        room: &mut Room<'_>,
+    ) -> Placed {
         let Some(part) = part_of_leaf(ids.len()) else {
             let triangle = |&id: &u32| (id, self.mesh.corners(id));
             let blocks = ids.chunks(TriangleBlock::WIDTH);
             let blocks = blocks.map(|ids| TriangleBlock::new(ids.iter().map(triangle)));
             return Placed { link: room.put_leaf(blocks), stack: 0 };
         };
-        let (link, place) = room.take_node();
+        let node_room = room.take_node(site, self.pad);
         let mut node = WideNode::EMPTY;
         let mut stack = 0;
         for (place, ids) in ids.chunks(part).enumerate() {
-            let child = self.place_leaf(ids, bounds, room);
+            let site = Site { cell: site.cell, parent: node_room.home, place };
+            let child = self.place_leaf(ids, &site, bounds, room);
             node.set_child(place, bounds, child.link);
             stack = stack.max(child.stack);
         }
-        place.put(node);
+        let link = node_room.link;
+        node_room.put(node);
         Placed { link, stack: stack + WideNode::WIDTH - 1 }
     }
 
@@ -184,19 +220,19 @@ impl Placer<'_> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::build::Preset;
     use rand::{RngExt, SeedableRng};
     use std::ops::ControlFlow;
 
-    fn wide(mesh: &TriangleMesh, options: &BuildOptions) -> WideTree {
+    pub(in crate::layout) fn wide(mesh: &TriangleMesh, options: &BuildOptions) -> WideTree {
         let go_on = |_| ControlFlow::Continue(());
         let (tree, boxes) = KdTree::build_with_boxes(mesh, options, &go_on).unwrap();
         WideTree::new(&tree, &boxes, mesh, options).unwrap().unwrap()
     }
 
-    fn soup(count: usize) -> TriangleMesh {
+    pub(in crate::layout) fn soup(count: usize) -> TriangleMesh {
         let mut random = rand_pcg::Pcg64::seed_from_u64(1);
         let triangles = (0..count).map(|_| {
             let center = [0; 3].map(|_| random.random::<f32>());
@@ -211,9 +247,10 @@ mod tests {
         let (mesh, options) = (soup(30_000), BuildOptions::preset(Preset::Fast));
         let on = |threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            pool.install(|| wide(&mesh, &options).arena)
+            pool.install(|| wide(&mesh, &options))
         };
-        assert!(on(1) == on(3));
+        let (one, three) = (on(1), on(3));
+        assert!(one.arena == three.arena && one.homes == three.homes);
     }
 
     #[test]

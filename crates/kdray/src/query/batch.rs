@@ -3,7 +3,7 @@
 use super::{Arithmetic, Scene};
 use crate::geometry::Ray;
 use crate::primitives::Hit;
-use crate::traverse::wide::{Any, Batch, Closest, Search};
+use crate::traverse::wide::{Any, Batch, Closest, Search, Start};
 use std::borrow::Borrow;
 
 impl Scene {
@@ -51,8 +51,8 @@ impl Scene {
     }
 
     /// Streams rays: takes them from `rays` as it goes, and gives `found` the number of each ray,
-    /// from zero, with its [`closest_hit`](Self::closest_hit). Answers come once each, nearly but
-    /// not wholly in the order of the rays.
+    /// from zero, with its [`closest_hit`](Self::closest_hit). Answers come once each, in no
+    /// particular order.
     ///
     /// ```
     /// # use kdray::{BuildOptions, Ray, Scene, TriangleMesh};
@@ -83,6 +83,14 @@ impl Scene {
         rays: impl IntoIterator<Item: Borrow<Ray>>,
         found: impl FnMut(usize, bool),
     ) {
+        self.each_any(rays, found);
+    }
+
+    pub(super) fn each_any(
+        &self,
+        rays: impl IntoIterator<Item: Start>,
+        found: impl FnMut(usize, bool),
+    ) {
         let one = |ray: &Ray| self.any_hit(ray);
         match self.arithmetic {
             Arithmetic::Exact => self.each::<Any<true>>(rays, one, found),
@@ -94,7 +102,7 @@ impl Scene {
     /// are so few that to begin with turns takes longer.
     fn each<'a, Q: Search<'a>>(
         &'a self,
-        rays: impl IntoIterator<Item: Borrow<Ray>>,
+        rays: impl IntoIterator<Item: Start>,
         one: impl Fn(&Ray) -> Q::Answer,
         mut found: impl FnMut(usize, Q::Answer),
     ) {
@@ -103,7 +111,7 @@ impl Scene {
         let few = rays.size_hint().1.is_some_and(|most| most <= FEW);
         match self.wide_tree().filter(|_| !few) {
             Some(tree) => self.instructions.run(Batch::<Q, _, _, _>::new(tree, rays, one, found)),
-            None => rays.enumerate().for_each(|(index, ray)| found(index, one(ray.borrow()))),
+            None => rays.enumerate().for_each(|(index, ray)| found(index, one(ray.ray()))),
         }
     }
 }

@@ -2,6 +2,7 @@
 
 mod arithmetic;
 mod batch;
+mod near;
 mod scene;
 mod shape_scene;
 

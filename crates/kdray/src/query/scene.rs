@@ -37,8 +37,8 @@ pub struct Scene {
 
 #[derive(Debug)]
 pub(super) struct Trees {
-    shapes: ShapeScene<TriangleMesh>,
-    wide: Option<WideTree>,
+    pub(super) shapes: ShapeScene<TriangleMesh>,
+    pub(super) wide: Option<WideTree>,
 }
 
 impl Scene {
@@ -108,7 +108,8 @@ impl Scene {
     }
 
     /// The wide tree; `None` if the options did not ask for it, or the mesh is out of the range of
-    /// its f32: larger than 2^32 or smaller than 2^-32, or the tree larger than 16 GiB.
+    /// its f32: larger than 2^32 or smaller than 2^-32, or the tree larger than 16 GiB or
+    /// deeper than the kernels' stacks.
     pub fn wide_tree(&self) -> Option<&WideTree> {
         self.trees.wide.as_ref()
     }

@@ -13,7 +13,8 @@ const ROUNDING: f64 = (f32::EPSILON / 2.0) as f64;
 /// Directions whose largest component is from the inverse of this to this are taken as they are.
 const LARGEST_COMPONENT: f64 = (1 << 16) as f64;
 
-/// What a direction's component counts as at least where it is divided by: 2^-40 of the largest.
+/// What a direction's component counts as at least where it is divided by: 2^-40 of the least that the
+/// largest component may be.
 const LEAST_COMPONENT: f32 = 1.0 / (1_u64 << 56) as f32;
 
 /// Directions whose largest component is from the first to the second can be scaled without loss.
@@ -30,7 +31,7 @@ const HIT_ERROR: f64 = 1.0 / (1_u64 << 38) as f64;
 const F32_SLACK: f64 = 1.0 / (1 << 22) as f64;
 
 /// A ray in f32: the direction scaled by a power of two if it is very long or very short, the origin
-/// moved along the ray into the tree's reach if it is far away. Fourth components are zero.
+/// moved along the ray into the tree's reach if it is far away. Fourth components mean nothing.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Aim {
     pub(super) origin: [f32; 4],

@@ -5,13 +5,14 @@
 //! nodes and at blocks.
 
 use super::aim::{Aim, NoAim};
+use super::climb::climb;
 use super::search::Search;
 use super::slab::Slabs;
 use super::stack::Stack;
+use super::start::Start;
 use crate::geometry::Ray;
 use crate::layout::{Link, WideTree};
 use crate::simd::{Kernel, Lanes};
-use std::borrow::Borrow;
 use std::marker::PhantomData;
 
 /// Rays under way at once: their states should fit the first-level cache.
@@ -61,7 +62,7 @@ impl Queue {
 
 impl<'a, Q: Search<'a>, R, A, F> Batch<'a, Q, R, A, F>
 where
-    R: Iterator<Item: Borrow<Ray<3>>>,
+    R: Iterator<Item: Start>,
     A: Fn(&Ray<3>) -> Q::Answer,
     F: FnMut(usize, Q::Answer),
 {
@@ -75,7 +76,7 @@ where
 
 impl<'a, Q: Search<'a>, R, A, F> Kernel for Batch<'a, Q, R, A, F>
 where
-    R: Iterator<Item: Borrow<Ray<3>>>,
+    R: Iterator<Item: Start>,
     A: Fn(&Ray<3>) -> Q::Answer,
     F: FnMut(usize, Q::Answer),
 {
@@ -84,7 +85,7 @@ where
     #[inline(always)]
     fn run<S: Lanes>(self, simd: S) {
         let Self { tree, rays, scalar, mut found, .. } = self;
-        let mut rays = rays.enumerate();
+        let mut rays = rays.enumerate().fuse();
         let mut travellers: [Traveller<Q>; UNDER_WAY] = std::array::from_fn(|_| Traveller::idle());
         let (mut nodes, mut leaves) = (Queue::default(), Queue::default());
         let mut idle = Queue { len: UNDER_WAY, slots: std::array::from_fn(|slot| slot as u8) };
@@ -92,13 +93,13 @@ where
             while let Some(slot) = idle.pop() {
                 let Some((index, ray)) = rays.next() else { break };
                 let traveller = &mut travellers[usize::from(slot) % UNDER_WAY];
-                let started = traveller.start(simd, tree, index, ray.borrow());
+                let started = traveller.start(simd, tree, index, &ray);
                 nodes.push_if(started.is_ok(), slot);
                 idle.push_if(started.is_err(), slot);
                 match started {
                     Ok(()) => {}
                     Err(NoAim::Missed) => found(index, Q::Answer::default()),
-                    Err(NoAim::OutOfRange) => found(index, scalar(ray.borrow())),
+                    Err(NoAim::OutOfRange) => found(index, scalar(ray.ray())),
                 }
             }
             if nodes.len + leaves.len == 0 {
@@ -139,17 +140,22 @@ impl<'a, Q: Search<'a>> Traveller<Q> {
     }
 
     #[inline(always)]
-    fn start<S: Lanes>(
+    fn start<S: Lanes, T: Start>(
         &mut self,
         simd: S,
         tree: &WideTree,
         index: usize,
-        ray: &Ray<3>,
+        start: &T,
     ) -> Result<(), NoAim> {
-        self.aim.set(simd, tree, ray)?;
-        self.search = Q::new(ray);
+        self.aim.set(simd, tree, start.ray())?;
+        self.search = Q::new(start.ray());
         self.stack.clear();
-        (self.index, self.next) = (index, Link::ROOT);
+        self.index = index;
+        self.next = Link::ROOT;
+        if T::NEAR {
+            let slabs = Slabs::new(simd, &self.aim);
+            self.next = climb::<S, Q>(simd, tree, start.hint(), &self.aim, &slabs, &mut self.stack);
+        }
         Ok(())
     }
 

@@ -1,17 +1,19 @@
 //! One ray through the wide tree.
 
 use super::aim::{Aim, NoAim};
+use super::climb::climb;
 use super::search::Search;
 use super::slab::Slabs;
 use super::stack::Stack;
 use crate::geometry::Ray;
-use crate::layout::{Link, WideTree};
+use crate::layout::{Hint, Link, WideTree};
 use crate::simd::{InstructionSet, Kernel, Lanes};
 
-/// A search along one ray.
-struct Single<'a, 's, Q: Search<'a>> {
+/// A search along one ray, which begins at the root, or at a hint's node if NEAR.
+struct Single<'a, 's, Q: Search<'a>, const NEAR: bool> {
     tree: &'a WideTree,
     ray: &'s Ray<3>,
+    hint: Hint,
     stack: &'s mut Stack,
     /// In the caller's place, because to copy it from hand to hand takes time.
     answer: &'s mut Q::Answer,
@@ -25,21 +27,37 @@ pub(crate) fn search_along<'a, Q: Search<'a>>(
     instructions: InstructionSet,
     answer: &mut Q::Answer,
 ) -> Result<(), NoAim> {
-    Stack::of_thread(|stack| instructions.run(Single::<Q> { tree, ray, stack, answer }))
+    let hint = Hint::NONE;
+    Stack::of_thread(|stack| {
+        instructions.run(Single::<Q, false> { tree, ray, hint, stack, answer })
+    })
 }
 
-impl<'a, Q: Search<'a>> Kernel for Single<'a, '_, Q> {
+/// Searches along `ray`, beginning with what lies near `hint`; sets `answer` if something is found.
+#[inline(always)]
+pub(crate) fn search_near<'a, Q: Search<'a>>(
+    tree: &'a WideTree,
+    ray: &Ray<3>,
+    hint: Hint,
+    instructions: InstructionSet,
+    answer: &mut Q::Answer,
+) -> Result<(), NoAim> {
+    Stack::of_thread(|stack| instructions.run(Single::<Q, true> { tree, ray, hint, stack, answer }))
+}
+
+impl<'a, Q: Search<'a>, const NEAR: bool> Kernel for Single<'a, '_, Q, NEAR> {
     type Output = Result<(), NoAim>;
 
     #[inline(always)]
     fn run<S: Lanes>(self, simd: S) -> Self::Output {
-        let Self { tree, ray, stack, answer } = self;
+        let Self { tree, ray, hint, stack, answer } = self;
         let mut aim = Aim::NONE;
         aim.set(simd, tree, ray)?;
         let mut slabs = Slabs::new(simd, &aim);
         let mut search = Q::new(ray);
         stack.clear();
-        let mut next = Link::ROOT;
+        let mut next =
+            if NEAR { climb::<S, Q>(simd, tree, hint, &aim, &slabs, stack) } else { Link::ROOT };
         loop {
             if !next.is_leaf() {
                 // A branch that is foretold rightly lets the next node be loaded before this one's

@@ -5,7 +5,7 @@ use super::vector::{Vector, splat};
 use crate::layout::{Link, WideNode};
 use crate::simd::{Lanes, Lists};
 use fearless_simd::prelude::*;
-use fearless_simd::{f32x8, u32x8};
+use fearless_simd::{f32x8, mask32x8, u32x8};
 
 /// What the slab test needs of a ray, in all lanes.
 #[derive(Clone, Copy)]
@@ -58,13 +58,33 @@ impl<S: Lanes> Slabs<S> {
     /// The children of a node whose boxes the ray meets.
     #[inline(always)]
     pub(super) fn meet(&self, simd: S, node: &WideNode) -> Met<S> {
+        let (t_near, met) = self.test(simd, node);
+        self.in_order(simd, node, t_near, met)
+    }
+
+    /// The same without the child at a place.
+    #[inline(always)]
+    pub(super) fn meet_but(&self, simd: S, node: &WideNode, place: u32) -> Met<S> {
+        let (t_near, met) = self.test(simd, node);
+        let others = mask32x8::from_bitmask(simd, !(1 << place));
+        self.in_order(simd, node, t_near, met & others)
+    }
+
+    /// Where the ray enters the boxes of a node's children, and which of them it meets.
+    #[inline(always)]
+    fn test(&self, simd: S, node: &WideNode) -> (f32x8<S>, mask32x8<S>) {
         let (x, y, z) =
             (self.axis(simd, node, 0), self.axis(simd, node, 1), self.axis(simd, node, 2));
         let t_near = x.0.max(y.0).max(z.0.max(self.t_near));
         let t_far = x.1.min(y.1).min(z.1.min(self.t_far));
+        (t_near, t_near.simd_le(t_far))
+    }
+
+    #[inline(always)]
+    fn in_order(&self, simd: S, node: &WideNode, t_near: f32x8<S>, met: mask32x8<S>) -> Met<S> {
         let links = u32x8::load_array_ref(simd, node.links());
         let order = node.order(self.octant);
-        let (met, lists) = simd.pack(t_near.simd_le(t_far), order, Lists { t: t_near, links });
+        let (met, lists) = simd.pack(met, order, Lists { t: t_near, links });
         // The nearest is last. It is looked up in the node: the way by the lists is longer.
         let place = order.rotate_left(met.leading_zeros() * 4 + 4) & 7;
         let nearest = Link::from_bits(node.links()[place as usize]);

@@ -44,17 +44,23 @@ impl Stack {
         (self.t[place], Link::from_bits(self.links[place]))
     }
 
-    /// Adds the children of a node but the nearest. There is always room for all eight: the layout
-    /// sees to it. Where they are entered is kept if the search shortens
-    /// the ray.
+    /// Adds the children of a node. There is always room for all eight: the layout sees to it. Where
+    /// they are entered is kept if the search shortens the ray.
     #[inline(always)]
-    pub(super) fn push_but_nearest<'a, S: Lanes, Q: Search<'a>>(&mut self, met: &Met<S>) {
+    pub(super) fn push<'a, S: Lanes, Q: Search<'a>>(&mut self, met: &Met<S>) {
         let room = self.len..self.len + 8;
         if Q::SHORTENS {
             self.t[room.clone()].copy_from_slice(met.lists.t.as_array());
         }
         self.links[room].copy_from_slice(met.lists.links.as_array());
-        self.len = self.len + met.count - 1;
+        self.len += met.count;
+    }
+
+    /// Adds the children of a node but the nearest.
+    #[inline(always)]
+    pub(super) fn push_but_nearest<'a, S: Lanes, Q: Search<'a>>(&mut self, met: &Met<S>) {
+        self.push::<S, Q>(met);
+        self.len -= 1;
     }
 
     /// Adds the children of a node, and takes the next that begins before `t_far`. Without a branch
