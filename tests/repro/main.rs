@@ -2,4 +2,5 @@
 
 mod order_of_waiting_nodes;
 mod overflow_in_the_filter;
+mod underflow_of_den;
 mod underflow_of_t;
