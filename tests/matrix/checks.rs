@@ -14,6 +14,9 @@ use kdray_tests::rays::{Archer, random};
 use rand::{Rng, RngExt};
 use rayon::prelude::*;
 
+/// So many rays at the least, so that batches take turns: fewer are answered one by one.
+const TURNS: usize = 256;
+
 /// How many rays are aimed along the split planes of each tree.
 const IN_SPLIT_PLANES: usize = 60;
 
@@ -47,6 +50,8 @@ pub(crate) fn on_each_mesh(
         let scene = scene.with_instructions(instructions);
         let in_planes = in_split_planes(case, scene.tree());
         let aimed: Vec<_> = case.aimed.iter().chain(&in_planes).collect();
+        let count = aimed.len().max(TURNS);
+        let aimed: Vec<_> = aimed.into_iter().cycle().take(count).collect();
         if let Err(error) = check(&scene, &aimed) {
             panic!("case {:?}, {error}", case.name);
         }

@@ -10,8 +10,8 @@ impl Scene {
     /// [`closest_hit`](Self::closest_hit) of each ray, on this thread: `hits[i]` is that of
     /// `rays[i]`. Allocates nothing.
     ///
-    /// Faster than one ray after the other, the more so the larger the tree: sixteen rays are under
-    /// way at once and take turns.
+    /// From 128 rays on faster than one ray after the other: sixteen are under way at once and take
+    /// turns.
     ///
     /// # Panics
     /// If the slices differ in length.
@@ -99,16 +99,16 @@ impl Scene {
     }
 
     /// Searches along each of `rays`: in turns, which was faster on trees of every size, unless they
-    /// are so few that to begin with turns takes longer.
+    /// are so few that to begin with turns takes longer (measured: docs/decisions/0011).
     fn each<'a, Q: Search<'a>>(
         &'a self,
         rays: impl IntoIterator<Item: Start>,
         one: impl Fn(&Ray) -> Q::Answer,
         mut found: impl FnMut(usize, Q::Answer),
     ) {
-        const FEW: usize = 8;
+        const ENOUGH: usize = 128;
         let rays = rays.into_iter();
-        let few = rays.size_hint().1.is_some_and(|most| most <= FEW);
+        let few = rays.size_hint().1.is_some_and(|most| most < ENOUGH);
         match self.wide_tree().filter(|_| !few) {
             Some(tree) => self.instructions.run(Batch::<Q, _, _, _>::new(tree, rays, one, found)),
             None => rays.enumerate().for_each(|(index, ray)| found(index, one(ray.ray()))),

@@ -24,7 +24,7 @@ impl Stack {
         stack
     };
 
-    /// Lends this thread's stack: to fill a new one with zeros takes longer than many rays.
+    /// Lends this thread's stack: to fill a new one with zeros for each ray takes time.
     #[inline(always)]
     pub(super) fn of_thread<R>(work: impl FnOnce(&mut Self) -> R) -> R {
         thread_local!(static STACK: RefCell<Stack> = const { RefCell::new(Stack::EMPTY) });
