@@ -9,30 +9,29 @@ use super::climb::climb;
 use super::search::Search;
 use super::slab::Slabs;
 use super::stack::Stack;
+use super::stacks::{Stacks, UNDER_WAY, with_stacks};
 use super::start::Start;
 use crate::geometry::Ray;
 use crate::layout::{Link, WideTree};
-use crate::simd::{Kernel, Lanes};
+use crate::simd::{InstructionSet, Kernel, Lanes};
 use std::marker::PhantomData;
 
-/// Rays under way at once: their states should fit the first-level cache.
-const UNDER_WAY: usize = 16;
-
 /// A search along each of many rays.
-pub(crate) struct Batch<'a, Q, R, A, F> {
+struct Batch<'a, 's, Q, R, A, F> {
     tree: &'a WideTree,
     rays: R,
+    stacks: &'s mut Stacks,
     scalar: A,
     found: F,
     search: PhantomData<Q>,
 }
 
 /// A ray under way.
-struct Traveller<Q> {
+struct Traveller<'s, Q> {
     index: usize,
     aim: Aim,
     search: Q,
-    stack: Stack,
+    stack: &'s mut Stack,
     /// Where it goes next: a node, the blocks of a leaf that are left, or the end.
     next: Link,
 }
@@ -60,21 +59,23 @@ impl Queue {
     }
 }
 
-impl<'a, Q: Search<'a>, R, A, F> Batch<'a, Q, R, A, F>
-where
-    R: Iterator<Item: Start>,
-    A: Fn(&Ray<3>) -> Q::Answer,
-    F: FnMut(usize, Q::Answer),
-{
-    /// Searches along `rays`, and gives `found` the number of each ray with its answer, as they
-    /// come. Rays that are out of the kernels' range are answered by `scalar`.
-    #[inline(always)]
-    pub(crate) fn new(tree: &'a WideTree, rays: R, scalar: A, found: F) -> Self {
-        Self { tree, rays, scalar, found, search: PhantomData }
-    }
+/// Searches along `rays`, and gives `found` the number of each ray with its answer, as they come.
+/// Rays that are out of the kernels' range are answered by `scalar`.
+#[inline(always)]
+pub(crate) fn search_along_each<'a, Q: Search<'a>>(
+    tree: &'a WideTree,
+    rays: impl Iterator<Item: Start>,
+    instructions: InstructionSet,
+    scalar: impl Fn(&Ray<3>) -> Q::Answer,
+    found: impl FnMut(usize, Q::Answer),
+) {
+    with_stacks(|stacks| {
+        let search = PhantomData::<Q>;
+        instructions.run(Batch { tree, rays, stacks, scalar, found, search });
+    });
 }
 
-impl<'a, Q: Search<'a>, R, A, F> Kernel for Batch<'a, Q, R, A, F>
+impl<'a, Q: Search<'a>, R, A, F> Kernel for Batch<'a, '_, Q, R, A, F>
 where
     R: Iterator<Item: Start>,
     A: Fn(&Ray<3>) -> Q::Answer,
@@ -84,9 +85,9 @@ where
 
     #[inline(always)]
     fn run<S: Lanes>(self, simd: S) {
-        let Self { tree, rays, scalar, mut found, .. } = self;
+        let Self { tree, rays, stacks, scalar, mut found, .. } = self;
         let mut rays = rays.enumerate().fuse();
-        let mut travellers: [Traveller<Q>; UNDER_WAY] = std::array::from_fn(|_| Traveller::idle());
+        let mut travellers = stacks.each_mut().map(Traveller::<Q>::idle);
         let (mut nodes, mut leaves) = (Queue::default(), Queue::default());
         let mut idle = Queue { len: UNDER_WAY, slots: std::array::from_fn(|slot| slot as u8) };
         loop {
@@ -132,11 +133,10 @@ where
     }
 }
 
-impl<'a, Q: Search<'a>> Traveller<Q> {
-    fn idle() -> Self {
+impl<'a, 's, Q: Search<'a>> Traveller<'s, Q> {
+    fn idle(stack: &'s mut Stack) -> Self {
         let ray = Ray { origin: [0.0; 3], direction: [0.0; 3], interval: crate::Interval::FORWARD };
-        let (aim, stack) = (Aim::NONE, Stack::EMPTY);
-        Self { index: 0, search: Q::new(&ray), aim, stack, next: Link::ROOT }
+        Self { index: 0, search: Q::new(&ray), aim: Aim::NONE, stack, next: Link::ROOT }
     }
 
     #[inline(always)]
@@ -154,7 +154,7 @@ impl<'a, Q: Search<'a>> Traveller<Q> {
         self.next = Link::ROOT;
         if T::NEAR {
             let slabs = Slabs::new(simd, &self.aim);
-            self.next = climb::<S, Q>(simd, tree, start.hint(), &self.aim, &slabs, &mut self.stack);
+            self.next = climb::<S, Q>(simd, tree, start.hint(), &self.aim, &slabs, self.stack);
         }
         Ok(())
     }

@@ -15,11 +15,12 @@ mod search;
 mod single;
 mod slab;
 mod stack;
+mod stacks;
 mod start;
 mod vector;
 
 pub(crate) use aim::NoAim;
-pub(crate) use batch::Batch;
+pub(crate) use batch::search_along_each;
 pub(crate) use located::Located;
 pub(crate) use search::{Any, Closest, Search};
 pub(crate) use single::{search_along, search_near};
