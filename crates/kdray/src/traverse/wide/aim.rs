@@ -173,7 +173,7 @@ impl Aim {
         self.far_error = self.error_at(t_far);
     }
 
-    /// What t adds to the error of T − t·den, a unit of ē². Where the origin was moved, the ends of
+    /// What t adds to the error of T − t·den, a unit of m·n. Where the origin was moved, the ends of
     /// the interval are less sharp.
     #[inline(always)]
     pub(super) fn error_at(&self, t: f32) -> f32 {
