@@ -4,8 +4,9 @@
 //! on one ray fills the gaps that others leave: a few rays are under way at once, and take turns at
 //! nodes and at blocks.
 
-use super::aim::{Aim, NoAim};
+use super::aim::Aim;
 use super::climb::climb;
+use super::line::NoAim;
 use super::search::Search;
 use super::slab::Slabs;
 use super::stack::Stack;

@@ -141,13 +141,13 @@ fn error_bounds<S: Lanes>(simd: S, aim: &Aim, [m, n, distance]: [f32x8<S>; 3]) -
     let distance = distance.max(all(aim.least_distance));
     let (m, n) = (m.max(all(LEAST_EDGE)), n.max(all(LEAST_EDGE)));
     let edge = m.max(n);
-    let edge_error = (edge * (edge + distance)).mul_add(all(aim.edge_error), all(UNDERFLOW));
-    let volume_error = distance * all(VOLUME_ERROR);
+    let edge_error = (edge * (edge + distance)).mul_add(all(aim.edge_rate), all(UNDERFLOW));
+    let volume_rate = distance * all(VOLUME_ERROR);
     let edges = m * n;
-    let t_error = |t_error: f32x8<S>| edges.mul_add(volume_error + t_error, all(UNDERFLOW));
-    let [near_error, far_error] = [t_error(all(aim.near_error)), t_error(all(aim.far_error))];
-    let origin_error = t_error(all(aim.error_at(0.0)));
-    [edge_error, near_error, far_error, origin_error, edges * all(aim.t_error)]
+    let error = |rate: f32| edges.mul_add(volume_rate + all(rate), all(UNDERFLOW));
+    let (near_error, far_error) = (error(aim.near_rate), error(aim.far_rate));
+    let origin_error = error(aim.rate_at(0.0));
+    [edge_error, near_error, far_error, origin_error, edges * all(aim.t_rate)]
 }
 
 /// A corner of each triangle.

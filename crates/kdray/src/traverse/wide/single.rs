@@ -1,7 +1,8 @@
 //! One ray through the wide tree.
 
-use super::aim::{Aim, NoAim};
+use super::aim::Aim;
 use super::climb::climb;
+use super::line::NoAim;
 use super::search::Search;
 use super::slab::{Meeting, Slabs};
 use super::stack::Stack;

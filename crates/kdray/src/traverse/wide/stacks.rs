@@ -9,12 +9,10 @@ pub(super) const UNDER_WAY: usize = 16;
 /// One for each ray under way.
 pub(super) type Stacks = [Stack; UNDER_WAY];
 
-const EMPTY: Stacks = [Stack::EMPTY; UNDER_WAY];
-
 /// Lends this thread's stacks: to make new ones takes as long as to answer a handful of rays.
 #[inline(always)]
 pub(super) fn with_stacks<R>(work: impl FnOnce(&mut Stacks) -> R) -> R {
-    thread_local!(static STACKS: RefCell<Stacks> = const { RefCell::new(EMPTY) });
+    thread_local!(static STACKS: RefCell<Stacks> = const { RefCell::new([Stack::EMPTY; UNDER_WAY]) });
     STACKS.with(|stacks| match stacks.try_borrow_mut() {
         Ok(mut stacks) => work(&mut stacks),
         Err(_) => with_new_stacks(work),
@@ -25,5 +23,5 @@ pub(super) fn with_stacks<R>(work: impl FnOnce(&mut Stacks) -> R) -> R {
 #[cold]
 #[inline(never)]
 fn with_new_stacks<R>(work: impl FnOnce(&mut Stacks) -> R) -> R {
-    work(&mut { EMPTY })
+    work(&mut [Stack::EMPTY; UNDER_WAY])
 }
