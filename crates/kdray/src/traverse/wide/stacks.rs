@@ -9,19 +9,27 @@ pub(super) const UNDER_WAY: usize = 16;
 /// One for each ray under way.
 pub(super) type Stacks = [Stack; UNDER_WAY];
 
-/// Lends this thread's stacks: to make new ones takes as long as to answer a handful of rays.
+/// Lends this thread's stacks: to make new ones takes as long as to answer a handful of rays. There
+/// are new ones for a batch within a batch, which the other's iterator begins, or what takes its
+/// answers. (`work` is called in one place: it is a kernel, and two copies of it made others slower.)
 #[inline(always)]
 pub(super) fn with_stacks<R>(work: impl FnOnce(&mut Stacks) -> R) -> R {
     thread_local!(static STACKS: RefCell<Stacks> = const { RefCell::new([Stack::EMPTY; UNDER_WAY]) });
-    STACKS.with(|stacks| match stacks.try_borrow_mut() {
-        Ok(mut stacks) => work(&mut stacks),
-        Err(_) => with_new_stacks(work),
+    STACKS.with(|stacks| {
+        let mut of_thread = stacks.try_borrow_mut();
+        let mut others;
+        work(match &mut of_thread {
+            Ok(stacks) => stacks,
+            Err(_) => {
+                others = new_stacks();
+                &mut others
+            }
+        })
     })
 }
 
-/// For a batch within a batch: one that is begun by the other's iterator, or where its answers go.
 #[cold]
 #[inline(never)]
-fn with_new_stacks<R>(work: impl FnOnce(&mut Stacks) -> R) -> R {
-    work(&mut [Stack::EMPTY; UNDER_WAY])
+fn new_stacks() -> Box<Stacks> {
+    Box::new([Stack::EMPTY; UNDER_WAY])
 }
