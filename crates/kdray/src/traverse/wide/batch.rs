@@ -28,11 +28,10 @@ struct Batch<'a, 's, Q, R, A, F> {
 }
 
 /// A ray under way.
-struct Traveller<'s, Q> {
+struct Traveller<Q> {
     index: usize,
     aim: Aim,
     search: Q,
-    stack: &'s mut Stack,
     /// Where it goes next: a node, the blocks of a leaf that are left, or the end.
     next: Link,
 }
@@ -88,14 +87,15 @@ where
     fn run<S: Lanes>(self, simd: S) {
         let Self { tree, rays, stacks, scalar, mut found, .. } = self;
         let mut rays = rays.enumerate().fuse();
-        let mut travellers = stacks.each_mut().map(Traveller::<Q>::idle);
+        let mut travellers: [Traveller<Q>; UNDER_WAY] = std::array::from_fn(|_| Traveller::idle());
         let (mut nodes, mut leaves) = (Queue::default(), Queue::default());
         let mut idle = Queue { len: UNDER_WAY, slots: std::array::from_fn(|slot| slot as u8) };
         loop {
             while let Some(slot) = idle.pop() {
                 let Some((index, ray)) = rays.next() else { break };
                 let traveller = &mut travellers[usize::from(slot) % UNDER_WAY];
-                let started = traveller.start(simd, tree, index, &ray);
+                let stack = &mut stacks[usize::from(slot) % UNDER_WAY];
+                let started = traveller.start(simd, tree, index, &ray, stack);
                 nodes.push_if(started.is_ok(), slot);
                 idle.push_if(started.is_err(), slot);
                 match started {
@@ -111,7 +111,8 @@ where
             for i in 0..std::mem::take(&mut nodes.len) {
                 let slot = nodes.slots[i % UNDER_WAY];
                 let traveller = &mut travellers[usize::from(slot) % UNDER_WAY];
-                traveller.pass_node(simd, tree);
+                let stack = &mut stacks[usize::from(slot) % UNDER_WAY];
+                traveller.pass_node(simd, tree, stack);
                 let is_leaf = traveller.next.is_leaf();
                 nodes.push_if(!is_leaf, slot);
                 leaves.push_if(is_leaf, slot);
@@ -119,7 +120,8 @@ where
             for i in 0..std::mem::take(&mut leaves.len) {
                 let slot = leaves.slots[i % UNDER_WAY];
                 let traveller = &mut travellers[usize::from(slot) % UNDER_WAY];
-                if traveller.next == Link::END || traveller.visit_block(simd, tree) {
+                let stack = &mut stacks[usize::from(slot) % UNDER_WAY];
+                if traveller.next == Link::END || traveller.visit_block(simd, tree, stack) {
                     let mut answer = Q::Answer::default();
                     traveller.search.answer(&mut answer);
                     found(traveller.index, answer);
@@ -134,10 +136,10 @@ where
     }
 }
 
-impl<'a, 's, Q: Search<'a>> Traveller<'s, Q> {
-    fn idle(stack: &'s mut Stack) -> Self {
+impl<'a, Q: Search<'a>> Traveller<Q> {
+    fn idle() -> Self {
         let ray = Ray { origin: [0.0; 3], direction: [0.0; 3], interval: crate::Interval::FORWARD };
-        Self { index: 0, search: Q::new(&ray), aim: Aim::NONE, stack, next: Link::ROOT }
+        Self { index: 0, search: Q::new(&ray), aim: Aim::NONE, next: Link::ROOT }
     }
 
     #[inline(always)]
@@ -147,35 +149,36 @@ impl<'a, 's, Q: Search<'a>> Traveller<'s, Q> {
         tree: &WideTree,
         index: usize,
         start: &T,
+        stack: &mut Stack,
     ) -> Result<(), NoAim> {
         self.aim.set(simd, tree, start.ray())?;
         self.search = Q::new(start.ray());
-        self.stack.clear();
+        stack.clear();
         self.index = index;
         self.next = Link::ROOT;
         if T::NEAR {
             let slabs = Slabs::new(simd, &self.aim);
-            self.next = climb::<S, Q>(simd, tree, start.hint(), &self.aim, &slabs, self.stack);
+            self.next = climb::<S, Q>(simd, tree, start.hint(), &self.aim, &slabs, stack);
         }
         Ok(())
     }
 
     /// Passes the next node.
     #[inline(always)]
-    fn pass_node<S: Lanes>(&mut self, simd: S, tree: &WideTree) {
+    fn pass_node<S: Lanes>(&mut self, simd: S, tree: &WideTree, stack: &mut Stack) {
         let node = tree.node(self.next);
         let met = Slabs::new(simd, &self.aim).meet(simd, node);
-        self.next = self.stack.push_and_pop::<S, Q>(&met, self.aim.t_far);
+        self.next = stack.push_and_pop::<S, Q>(&met, self.aim.t_far);
     }
 
     /// Visits the next block of a leaf; true if the search is over.
     #[inline(always)]
-    fn visit_block<S: Lanes>(&mut self, simd: S, tree: &'a WideTree) -> bool {
+    fn visit_block<S: Lanes>(&mut self, simd: S, tree: &'a WideTree, stack: &mut Stack) -> bool {
         if self.search.visit(simd, tree.block(self.next, 0), &mut self.aim) {
             return true;
         }
         let rest = self.next.rest();
-        self.next = if rest.block_count() > 0 { rest } else { self.stack.pop::<Q>(self.aim.t_far) };
+        self.next = if rest.block_count() > 0 { rest } else { stack.pop::<Q>(self.aim.t_far) };
         false
     }
 }
