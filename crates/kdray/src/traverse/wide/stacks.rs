@@ -11,7 +11,7 @@ pub(super) type Stacks = [Stack; UNDER_WAY];
 
 /// Lends this thread's stacks: to make new ones takes as long as to answer a handful of rays. There
 /// are new ones for a batch within a batch, which the other's iterator begins, or what takes its
-/// answers. (`work` is called in one place: it is a kernel, and two copies of it made others slower.)
+/// answers. (`work` is called in one place, for it is a kernel, and each call would be a copy of it.)
 #[inline(always)]
 pub(super) fn with_stacks<R>(work: impl FnOnce(&mut Stacks) -> R) -> R {
     thread_local!(static STACKS: RefCell<Stacks> = const { RefCell::new([Stack::EMPTY; UNDER_WAY]) });
