@@ -64,6 +64,19 @@ pub(crate) struct Compare {
     pub(crate) view: ViewArgs,
 }
 
+impl Compare {
+    /// The numbers of threads to build on, each once.
+    pub(crate) fn thread_counts(&self) -> Vec<usize> {
+        let mut counts = Vec::new();
+        for &count in &self.build_threads {
+            if !counts.contains(&count) {
+                counts.push(count);
+            }
+        }
+        counts
+    }
+}
+
 /// From where mesh files are seen; scenes that have a view of their own keep it.
 #[derive(Clone, Debug, Default, Args)]
 pub(crate) struct ViewArgs {
@@ -145,7 +158,9 @@ mod tests {
         Arguments::command().debug_assert();
         let parsed = Arguments::parse_from(["bench", "--scenes", "a,b", "--quick"]);
         assert_eq!(parsed.compare.scenes, ["a", "b"]);
-        assert_eq!(parsed.compare.build_threads, [1, 2]);
+        assert_eq!(parsed.compare.thread_counts(), [1, 2]);
+        let parsed = Arguments::parse_from(["bench", "--build-threads", "2,1,2"]);
+        assert_eq!(parsed.compare.thread_counts(), [2, 1]);
         let parsed = Arguments::parse_from(["bench", "scaling", "--quick"]);
         assert!(matches!(parsed.task, Some(Task::Scaling(Scaling { quick: true, .. }))));
     }

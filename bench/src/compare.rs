@@ -142,7 +142,7 @@ impl Run<'_> {
         scene: &'a BenchScene,
         rows: &mut Vec<BuildRow>,
     ) -> Result<Vec<Ready<'a>>, BenchError> {
-        let workers = self.options.build_threads.iter().map(|&count| Workers::new(count));
+        let workers = self.options.thread_counts().into_iter().map(Workers::new);
         let workers: Vec<Workers> = workers.collect::<Result<_, _>>()?;
         let mut ready = Vec::new();
         for contender in &self.contenders {

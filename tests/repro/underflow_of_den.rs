@@ -6,15 +6,25 @@ use kdray::{BuildOptions, InstructionSet, Ray, Scene, TriangleMesh};
 #[test]
 fn a_tiny_triangle_is_hit_from_far_away() {
     let e = 8.74138e-19;
-    let tiny = [[0.0, 0.0, 0.0], [e, 0.0, 0.0], [0.0, e, 0.0]];
+    is_hit_from_far_away([e, e]);
+}
+
+#[test]
+fn a_slender_triangle_is_hit_from_far_away() {
+    is_hit_from_far_away([2.0_f32.powi(29), 2.0_f32.powi(-140)]);
+}
+
+/// Of a triangle with legs of those lengths.
+fn is_hit_from_far_away([m, n]: [f32; 2]) {
+    let triangle = [[0.0, 0.0, 0.0], [m, 0.0, 0.0], [0.0, n, 0.0]];
     // Makes the reach so large that the ray starts within it.
     let wide = 2.0_f32.powi(29);
     let far = [[wide, wide, wide], [wide, 0.0, wide], [0.0, wide, wide]];
-    let mesh = TriangleMesh::from_soup([tiny, far]).unwrap();
-    let scene = Scene::build(mesh, &BuildOptions::default()).unwrap();
+    let mesh = TriangleMesh::from_soup([triangle, far]).expect("finite");
+    let scene = Scene::build(mesh, &BuildOptions::default()).expect("a small mesh");
     assert!(scene.wide_tree().is_some());
-    let inside = f64::from(e) / 4.0;
-    let ray = Ray::new([inside, inside, -(2.0_f64.powi(31))], [0.0, 0.0, 2.0_f64.powi(-16)])
+    let inside = [f64::from(m) / 4.0, f64::from(n) / 4.0, -(2.0_f64.powi(31))];
+    let ray = Ray::new(inside, [0.0, 0.0, 2.0_f64.powi(-16)])
         .with_interval(0.0, 2.0_f64.powi(47) * (1.0 + 2.0_f64.powi(-20)));
     let naive = scene.shapes().naive().closest_hit(&ray);
     assert_eq!(naive.map(|hit| hit.primitive_id), Some(0));

@@ -4,8 +4,8 @@ use super::{BuildRow, Report, geometric_mean};
 
 /// What stands above the table.
 pub(super) const TITLE: &str = "
-Builds, geometric means over the scenes: time on one thread in those of Embree MEDIUM and HIGH; how
-many times as fast on two threads; bytes a triangle, all told, of the wide tree, of the canonical tree
+Builds, geometric means over the scenes: time on the fewest threads in those of Embree MEDIUM and HIGH;
+how many times as fast on more; bytes a triangle, all told, of the wide tree, of the canonical tree
 ";
 
 /// Whose times are the unit.
@@ -13,22 +13,26 @@ const BASELINES: [&str; 2] = ["embree medium", "embree high"];
 
 /// The table.
 pub(super) fn builds(report: &Report) -> Vec<Vec<String>> {
-    let head = ["", "MEDIUM", "HIGH", "2 threads", "bytes", "wide", "canonical"];
-    let mut rows = vec![head.map(str::to_owned).to_vec()];
-    rows.extend(report.builders().into_iter().map(|contender| row(report, contender)));
-    rows
+    let threads = report.build_threads();
+    let Some((&fewest, more)) = threads.split_first() else { return Vec::new() };
+    let more_threads = more.iter().map(|count| format!("{count} threads"));
+    let owned = |heads: &[&str]| heads.iter().map(|&head| head.to_owned()).collect::<Vec<_>>();
+    let heads = owned(&["", "MEDIUM", "HIGH"]).into_iter().chain(more_threads);
+    let heads = heads.chain(owned(&["bytes", "wide", "canonical"])).collect();
+    let row = |contender| row(report, contender, fewest, more);
+    std::iter::once(heads).chain(report.builders().into_iter().map(row)).collect()
 }
 
-fn row(report: &Report, contender: &str) -> Vec<String> {
-    let on_one = (contender, 1);
-    let to_baselines = BASELINES.map(|baseline| ratio(report, on_one, (baseline, 1)));
-    let speed_up = ratio(report, on_one, (contender, 2));
+fn row(report: &Report, contender: &str, fewest: usize, more: &[usize]) -> Vec<String> {
+    let on_fewest = (contender, fewest);
+    let to_baselines = BASELINES.map(|baseline| ratio(report, on_fewest, (baseline, fewest)));
+    let speed_ups = more.iter().map(|&count| ratio(report, on_fewest, (contender, count)));
     let bytes = [
         bytes(report, contender, |row| Some(row.bytes_per_triangle)),
         bytes(report, contender, |row| row.trees.wide),
         bytes(report, contender, |row| row.trees.canonical),
     ];
-    let factors = to_baselines.into_iter().chain([speed_up]).map(|factor| cell(factor, 2));
+    let factors = to_baselines.into_iter().chain(speed_ups).map(|factor| cell(factor, 2));
     let cells = factors.chain(bytes.map(|count| cell(count, 0)));
     std::iter::once(contender.to_owned()).chain(cells).collect()
 }
@@ -87,6 +91,16 @@ mod tests {
         assert_eq!(line("kdray"), Some(ours.to_vec()));
         let other = ["1.50", "–", "–", "60", "–", "–"].map(str::to_owned);
         assert_eq!(line("a"), Some(other.to_vec()), "of one thread only");
+    }
+
+    #[test]
+    fn columns_are_the_numbers_of_threads() {
+        let mut report = with_baselines();
+        report.builds.retain(|row| row.threads == 2);
+        let rows = builds(&report);
+        assert_eq!(rows[0], ["", "MEDIUM", "HIGH", "bytes", "wide", "canonical"]);
+        assert_eq!(rows[2], ["kdray", "3.00", "–", "60", "40", "20"]);
+        assert!(builds(&Report { builds: Vec::new(), ..report }).is_empty());
     }
 
     #[test]

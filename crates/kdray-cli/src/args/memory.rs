@@ -31,7 +31,6 @@ impl MemoryLimit {
 fn available() -> Option<u64> {
     let mut system = System::new().ok()?;
     system.refresh_memory();
-    let machine = Some(system.available_memory()).filter(|&bytes| bytes > 0);
     let group = get_current_pid().ok().and_then(|pid| {
         let only = ProcessesToUpdate::Some(&[pid]);
         system.refresh_processes_specifics(only, false, ProcessRefreshKind::nothing());
@@ -39,7 +38,12 @@ fn available() -> Option<u64> {
     });
     // What the group only holds to read files faster can be had, too.
     let group = group.map(|group| group.total_memory.saturating_sub(group.rss));
-    machine.into_iter().chain(group).min()
+    least(system.available_memory(), group)
+}
+
+/// The least of what is known; the machine's is zero where the system does not tell.
+fn least(machine: u64, group: Option<u64>) -> Option<u64> {
+    Some(machine).filter(|&bytes| bytes > 0).into_iter().chain(group).min()
 }
 
 impl FromStr for MemoryLimit {
@@ -86,7 +90,11 @@ mod tests {
     }
 
     #[test]
-    fn what_is_available_is_a_limit() {
-        assert!(MemoryLimit::default().bytes().is_none_or(|bytes| bytes > 1 << 20));
+    fn the_machine_and_the_group_both_limit() {
+        assert_eq!(least(8, Some(3)), Some(3));
+        assert_eq!(least(2, Some(3)), Some(2));
+        assert_eq!(least(2, None), Some(2));
+        assert_eq!(least(0, Some(3)), Some(3));
+        assert_eq!(least(0, None), None);
     }
 }

@@ -8,7 +8,7 @@ use crate::{
     load, output,
     table::{columns, print_json},
 };
-use kdray::{ShapeScene, TreeStats};
+use kdray::{CostModel, ShapeScene, Strategy, TreeStats};
 use serde::Serialize;
 
 /// Characters of the longest bar of the histogram.
@@ -53,8 +53,9 @@ struct Figures {
 /// Builds the tree and measures it.
 pub(crate) fn run(args: &Args, globals: &Globals) -> Result<(), CliError> {
     let mesh = load::mesh(&args.scene, globals)?;
-    let scene = build::shapes(mesh, &args.build.options(), globals)?;
-    let figures = Figures::of(&scene, &args.build);
+    let options = args.build.options();
+    let scene = build::shapes(mesh, &options, globals)?;
+    let figures = Figures::of(&scene, args.build.split, &options.cost);
     if args.table.json {
         return print_json(&figures);
     }
@@ -63,16 +64,16 @@ pub(crate) fn run(args: &Args, globals: &Globals) -> Result<(), CliError> {
 }
 
 impl Figures {
-    fn of(scene: &ShapeScene, args: &BuildArgs) -> Self {
+    fn of(scene: &ShapeScene, split: Strategy, cost: &CostModel) -> Self {
         let (mesh, bounds) = (scene.primitives(), scene.tree().bounds());
         let triangles = mesh.triangles().len();
-        let stats: TreeStats = scene.tree().stats(triangles, &args.options().cost);
+        let stats: TreeStats = scene.tree().stats(triangles, cost);
         Self {
             triangles,
             vertices: mesh.vertices().len(),
             bounds_min: (!bounds.is_empty()).then_some(bounds.min),
             bounds_max: (!bounds.is_empty()).then_some(bounds.max),
-            split: args.split.name(),
+            split: split.name(),
             nodes: stats.nodes,
             leaves: stats.leaves,
             empty_leaves: stats.empty_leaves,

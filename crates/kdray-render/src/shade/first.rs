@@ -1,10 +1,10 @@
 //! The first surfaces on camera rays, whose light rays are answered together.
 
 use super::matt::Matt;
+use super::met::Met;
 use super::tracer::{Path, Tracer};
-use super::whitted::left_before;
 use crate::camera_rays::CameraRays;
-use crate::surface::{Surface, opacity};
+use crate::surface::Surface;
 use glam::Vec3;
 use kdray::{Hit, Ray};
 
@@ -13,7 +13,7 @@ pub(super) struct First<'a> {
     surface: Surface<'a>,
     matt: Option<Matt>,
     /// The share of its light that reaches the camera.
-    through: Vec3,
+    left: Vec3,
 }
 
 impl<'a> Tracer<'a> {
@@ -28,8 +28,8 @@ impl<'a> Tracer<'a> {
         for ((ray, hit, sampler), first) in rays.iter().zip(firsts.drain(..)) {
             let path = Path::primary(sampler);
             let radiance = match first {
-                Some(First { surface, matt, through }) => {
-                    through * self.light(&surface, matt.as_ref(), &path)
+                Some(First { surface, matt, left }) => {
+                    left * self.light(&surface, matt.as_ref(), &path)
                 }
                 None => self.radiance_from(hit, ray, &path),
             };
@@ -42,13 +42,13 @@ impl<'a> Tracer<'a> {
     /// The first surface on a camera ray, with its light rays pushed; `None` if there is a lamp
     /// before it, or the ray goes on behind it.
     fn first(&mut self, ray: &Ray, hit: &Hit, path: &Path) -> Option<First<'a>> {
-        let t_min = ray.interval.t_min;
-        if opacity(self.world, hit) < 1.0 || self.seen_lamp(ray, [t_min, hit.t], path).is_some() {
+        if self.goes_on_behind(hit) {
             return None;
         }
-        let surface = Surface::new(self.world, ray, hit);
-        let through = left_before(&surface, hit.t - t_min);
+        let Met::Surface { surface, left } = self.meet(ray, ray.interval.t_min, hit, path) else {
+            return None;
+        };
         let matt = self.gather(&surface, path);
-        Some(First { surface, matt, through })
+        Some(First { surface, matt, left })
     }
 }

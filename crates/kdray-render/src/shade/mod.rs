@@ -7,6 +7,7 @@ mod first;
 mod gloss;
 mod light_rays;
 mod matt;
+mod met;
 mod shadow;
 mod tracer;
 mod whitted;

@@ -1,10 +1,9 @@
 //! Backward ray tracing: Whitted, "An Improved Illumination Model for Shaded Display" (1980).
 
-use super::dielectric::attenuation;
 use super::matt::Matt;
+use super::met::Met;
 use super::tracer::{NEGLIGIBLE, Path, Tracer};
-use crate::light::Lamp;
-use crate::surface::{Surface, opacity};
+use crate::surface::Surface;
 use glam::Vec3;
 use kdray::{Hit, Ray};
 
@@ -21,7 +20,7 @@ impl Tracer<'_> {
         match hit {
             // Behind a cut-out or a veil the ray goes on. All that it crosses is asked for, in
             // order, since another surface may lie at the very same t.
-            Some(hit) if opacity(self.world, hit) < 1.0 => {
+            Some(hit) if self.goes_on_behind(hit) => {
                 let rest = ray.with_interval(hit.t, ray.interval.t_max);
                 self.radiance_of(self.world.scene().all_hits(&rest), ray, path)
             }
@@ -34,12 +33,12 @@ impl Tracer<'_> {
         let (mut sum, mut through) = (Vec3::ZERO, Vec3::ONE);
         let mut t_before = ray.interval.t_min;
         for hit in hits {
-            if let Some(glow) = self.seen_lamp(ray, [t_before, hit.t], path) {
-                return sum + through * glow;
-            }
-            let surface = Surface::new(self.world, ray, &hit);
+            let (surface, left) = match self.meet(ray, t_before, &hit, path) {
+                Met::Lamp(glow) => return sum + through * glow,
+                Met::Surface { surface, left } => (surface, left),
+            };
+            through *= left;
             if surface.opacity > 0.0 {
-                through *= left_before(&surface, hit.t - t_before);
                 sum += through * surface.opacity * self.shade(&surface, path);
             }
             through *= 1.0 - surface.opacity;
@@ -51,17 +50,6 @@ impl Tracer<'_> {
         let behind = self.seen_lamp(ray, [t_before, f64::INFINITY], path);
         let sky = || self.options.background.radiance(ray.direction.into());
         sum + through * behind.unwrap_or_else(sky)
-    }
-
-    /// The radiance of a lamp's surface that the ray meets between two places.
-    pub(super) fn seen_lamp(&self, ray: &Ray, [from, to]: [f64; 2], path: &Path) -> Option<Vec3> {
-        if !path.sees_lamps {
-            return None;
-        }
-        let seen = |lamp: &Lamp| lamp.seen(ray.origin.into(), ray.direction.into());
-        let between = |&(t, _): &(f64, Vec3)| from < t && t < to;
-        let nearest = |a: &(f64, Vec3), b: &(f64, Vec3)| a.0.total_cmp(&b.0);
-        self.lamps.iter().filter_map(seen).filter(between).min_by(nearest).map(|(_, glow)| glow)
     }
 
     /// The light that an opaque point of a surface sends to the viewer.
@@ -119,9 +107,4 @@ fn transmission(surface: &Surface<'_>) -> f32 {
 fn matt_share(surface: &Surface<'_>) -> Vec3 {
     let mirror = Vec3::from(surface.material.mirror);
     (Vec3::ONE - mirror).max(Vec3::ZERO) * (1.0 - transmission(surface))
-}
-
-/// What is left of a surface's light after a `distance` on its inner side.
-pub(super) fn left_before(surface: &Surface<'_>, distance: f64) -> Vec3 {
-    if surface.outside { Vec3::ONE } else { attenuation(surface.material, distance) }
 }

@@ -17,8 +17,8 @@ pub enum BuildError {
     #[error(
         "the build needs about {} GB of memory, but {} GB is the limit; take the preset fast, \
          split the mesh, or raise the limit",
-        gigabytes(*needed),
-        gigabytes(*limit)
+        gigabytes([*needed, *limit])[0],
+        gigabytes([*needed, *limit])[1]
     )]
     Memory {
         /// How many bytes it is expected to take: [`BuildOptions::peak_bytes`], or once the canonical
@@ -45,8 +45,25 @@ pub enum BuildError {
     TooManyNodes,
 }
 
-/// As people say it, in steps that tell any two apart that matter.
-fn gigabytes(bytes: u64) -> String {
-    let whole = bytes as f64 / 1e9;
-    if whole < 0.095 { format!("{whole:.4}") } else { format!("{whole:.1}") }
+/// As people say it: with as few decimals, from one on, as tell the two apart, and from nothing.
+fn gigabytes(bytes: [u64; 2]) -> [String; 2] {
+    const ALL: usize = 9;
+    let text = |decimals: usize| bytes.map(|bytes| format!("{:.decimals$}", bytes as f64 / 1e9));
+    let is_nothing = |text: &String| text.bytes().all(|digit| digit == b'0' || digit == b'.');
+    let are_told = |texts: &[String; 2]| texts[0] != texts[1] && !texts.iter().any(is_nothing);
+    (1..ALL).map(text).find(are_told).unwrap_or_else(|| text(ALL))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_sizes_are_told_apart() {
+        let told = |needed, limit| gigabytes([needed, limit]);
+        assert_eq!(told(12_340_000_000, 8_000_000_000), ["12.3", "8.0"]);
+        assert_eq!(told(8_010_000_000, 8_000_000_000), ["8.01", "8.00"]);
+        assert_eq!(told(2_000_000_000, 4_000_000), ["2.000", "0.004"]);
+        assert_eq!(told(1_000_001, 1_000_000), ["0.001000001", "0.001000000"]);
+    }
 }

@@ -195,3 +195,22 @@ impl Arena {
 fn as_array<const N: usize>(lines: &[Line]) -> &[Line; N] {
     lines.first_chunk().expect("a slice of N lines")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_last_line_of_the_largest_arena_can_be_linked() {
+        assert!(Arena::can_link(Link::MOST_LINES - 1) && !Arena::can_link(Link::MOST_LINES));
+        let blocks = Link::MOST_BLOCKS;
+        let first = Link::MOST_LINES - 1 - blocks * BLOCK_LINES;
+        let mut link = Link::leaf(first, blocks);
+        for passed in 0..blocks {
+            let is_right = link.is_leaf() && link.block_count() == blocks - passed;
+            assert!(is_right && link.line() == first + passed * BLOCK_LINES, "{passed}");
+            link = link.rest();
+        }
+        assert!(link.is_leaf() && link.block_count() == 0);
+    }
+}

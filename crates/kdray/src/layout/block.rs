@@ -57,8 +57,10 @@ impl TriangleBlock {
     /// The triangle in a lane, its corners a, b, c in the mesh's order.
     #[inline(always)]
     pub(crate) fn triangle(&self, lane: usize) -> [[f32; 3]; 3] {
-        let at = |place: usize| [0, 1, 2].map(|axis| self.corners[place][axis][lane & 7]);
-        let [p, q, r] = [at(0), at(1), at(2)];
+        // Not by `map`, which is not always compiled into the kernels.
+        let corner = |[x, y, z]: &[[f32; 8]; 3]| [x[lane & 7], y[lane & 7], z[lane & 7]];
+        let [p, q, r] = &self.corners;
+        let [p, q, r] = [corner(p), corner(q), corner(r)];
         match self.turns(lane) {
             0 => [p, q, r],
             1 => [r, p, q],

@@ -255,11 +255,34 @@ pub(super) mod tests {
 
     #[test]
     fn leaves_too_large_for_a_link_find_room() {
-        // Plans are checked while the tree is placed.
         let one_leaf = BuildOptions { leaf_size: usize::MAX, ..BuildOptions::preset(Preset::Best) };
         for count in [1, 56, 57, 449, 3000] {
             let tree = wide(&soup(count), &one_leaf);
-            assert!(tree.bytes() >= count.div_ceil(8) * size_of::<TriangleBlock>());
+            let mut ids = Vec::new();
+            let mut waiting = vec![Link::ROOT];
+            while let Some(link) = waiting.pop() {
+                if link.is_leaf() {
+                    let blocks = (0..link.block_count()).map(|index| tree.block(link, index));
+                    ids.extend(blocks.flat_map(ids_of));
+                } else {
+                    waiting.extend(children_of(tree.node(link)));
+                }
+            }
+            ids.sort_unstable();
+            assert!(ids.iter().copied().eq(0..count as u32), "each triangle once: {ids:?}");
         }
+    }
+
+    /// The ids of a block's triangles.
+    fn ids_of(block: &TriangleBlock) -> impl Iterator<Item = u32> {
+        let lanes = (0..TriangleBlock::WIDTH).filter(|&lane| !block.corner(0, 0)[lane].is_nan());
+        lanes.map(|lane| block.id(lane))
+    }
+
+    /// The links of a node's children.
+    fn children_of(node: &WideNode) -> impl Iterator<Item = Link> {
+        let [low, _] = node.planes(0);
+        let places = (0..WideNode::WIDTH).filter(|&place| low[place] < f32::INFINITY);
+        places.map(|place| Link::from_bits(node.links()[place]))
     }
 }

@@ -41,7 +41,8 @@ pub fn intersect_triangle(
     ray: &Ray<3>,
     rule: HitRule,
 ) -> Option<Hit> {
-    let [a, b, c] = corners.map(|p| DVec3::from(p.map(f64::from)));
+    let [a, b, c] = corners;
+    let (a, b, c) = (in_f64(a), in_f64(b), in_f64(c));
     let (o, d) = (DVec3::from(ray.origin), DVec3::from(ray.direction));
     let (e1, e2, s) = (b - a, c - a, o - a);
     let p = d.cross(e2);
@@ -88,6 +89,12 @@ pub fn intersect_triangle(
     let side = if front { Side::Front } else { Side::Back };
     let hit = Hit { t, primitive_id: id, u, v: v.min(1.0 - u), side };
     (t.is_finite() && ray.interval.contains(t)).then_some(hit)
+}
+
+/// The same point. Not by `map`, which is not always compiled into the kernels.
+#[inline(always)]
+fn in_f64(&[x, y, z]: &[f32; 3]) -> DVec3 {
+    DVec3::new(f64::from(x), f64::from(y), f64::from(z))
 }
 
 /// How far T may be off, from the sum of its terms' absolute values.

@@ -3,14 +3,14 @@
 use super::{Arithmetic, Scene};
 use crate::geometry::Ray;
 use crate::primitives::Hit;
-use crate::traverse::wide::{Any, Batch, Closest, Search, Start};
+use crate::traverse::wide::{Any, Closest, Search, Start, search_along_each};
 use std::borrow::Borrow;
 
 impl Scene {
     /// [`closest_hit`](Self::closest_hit) of each ray, on this thread: `hits[i]` is that of
     /// `rays[i]`. Allocates nothing.
     ///
-    /// From 128 rays on faster than one ray after the other: sixteen are under way at once and take
+    /// From eight rays on faster than one ray after the other: sixteen are under way at once and take
     /// turns.
     ///
     /// # Panics
@@ -106,11 +106,11 @@ impl Scene {
         one: impl Fn(&Ray) -> Q::Answer,
         mut found: impl FnMut(usize, Q::Answer),
     ) {
-        const ENOUGH: usize = 128;
+        const ENOUGH: usize = 8;
         let rays = rays.into_iter();
         let few = rays.size_hint().1.is_some_and(|most| most < ENOUGH);
         match self.wide_tree().filter(|_| !few) {
-            Some(tree) => self.instructions.run(Batch::<Q, _, _, _>::new(tree, rays, one, found)),
+            Some(tree) => search_along_each::<Q>(tree, rays, self.instructions, one, found),
             None => rays.enumerate().for_each(|(index, ray)| found(index, one(ray.ray()))),
         }
     }

@@ -1,6 +1,7 @@
 //! A ray as the kernels see it.
 
 use super::block::{EDGE_ERROR, T_ERROR};
+use super::line::{Line, NoAim, larger};
 use crate::geometry::Ray;
 use crate::layout::WideTree;
 use crate::simd::Lanes;
@@ -16,13 +17,6 @@ const LARGEST_COMPONENT: f64 = (1 << 16) as f64;
 /// What a direction's component counts as at least where it is divided by: 2^-40 of the least that the
 /// largest component may be.
 const LEAST_COMPONENT: f32 = 1.0 / (1_u64 << 56) as f32;
-
-/// Directions whose largest component is from the first to the second can be scaled without loss.
-const SIZES: std::ops::Range<f64> = 1e-290..1e290;
-
-/// Rays that start farther away than this many times the reach are not moved into it: the error of
-/// moving would be that of another rounding to f32.
-const FARTHEST: f64 = (1_u64 << 20) as f64;
 
 /// How far, relative to t, a reported t may be from the true one, with room for the conversion.
 const HIT_ERROR: f64 = 1.0 / (1_u64 << 38) as f64;
@@ -46,12 +40,12 @@ pub(crate) struct Aim {
     /// and not below the true ones.
     pub(super) t_near: f32,
     pub(super) t_far: f32,
-    /// The errors of a block's edge functions, and of T − t·den a unit of t and for t = t_near and
-    /// t_far, that all its triangles share: see [`super::block`].
-    pub(super) edge_error: f32,
-    pub(super) t_error: f32,
-    pub(super) near_error: f32,
-    pub(super) far_error: f32,
+    /// What the errors of a block's edge functions are a unit of ē·(ē + M), and that of T − t·den a
+    /// unit of m·n: for a t of one, for t_near, for t_far. See [`super::block`].
+    pub(super) edge_rate: f32,
+    pub(super) t_rate: f32,
+    pub(super) near_rate: f32,
+    pub(super) far_rate: f32,
     /// 2^-16 of the way by which the origin was moved.
     blur: f32,
     /// What the distance from the origin counts as at least in error bounds, because the true
@@ -60,26 +54,6 @@ pub(crate) struct Aim {
     /// The kernels' t is `scale · t − shift`.
     scale: f64,
     shift: f64,
-}
-
-/// What stands in the way of a kernel.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum NoAim {
-    /// Nothing: the ray surely misses the tree, or no ray can be traced.
-    Missed,
-    /// The ray's numbers are out of the kernels' range.
-    OutOfRange,
-}
-
-/// A line that starts within the reach.
-struct Line {
-    origin: [f64; 3],
-    direction: [f64; 3],
-    /// Its t is `scale · t − shift`.
-    scale: f64,
-    shift: f64,
-    /// How far the origin may be off.
-    moving: f64,
 }
 
 impl Aim {
@@ -92,10 +66,10 @@ impl Aim {
         octant: 0,
         t_near: 0.0,
         t_far: 0.0,
-        edge_error: 0.0,
-        t_error: 0.0,
-        near_error: 0.0,
-        far_error: 0.0,
+        edge_rate: 0.0,
+        t_rate: 0.0,
+        near_rate: 0.0,
+        far_rate: 0.0,
         blur: 0.0,
         least_distance: 0.0,
         scale: 0.0,
@@ -112,7 +86,7 @@ impl Aim {
     ) -> Result<(), NoAim> {
         let reach = f64::from(tree.reach());
         if !is_plain(simd, reach, ray) {
-            return self.set_line(simd, ray, &line_in_reach(reach, ray)?, reach);
+            return self.set_line(simd, ray, &Line::in_reach(reach, ray)?, reach);
         }
         let (origin, direction) = (ray.origin, ray.direction);
         let line = Line { origin, direction, scale: 1.0, shift: 0.0, moving: 0.0 };
@@ -156,12 +130,12 @@ impl Aim {
         self.octant = (inverse.simd_lt(0.0).to_bitmask() & 7) as usize;
         let [x, y, z, _] = size.to_array();
         let length = x + y + z;
-        (self.edge_error, self.t_error) = (EDGE_ERROR * length, T_ERROR * length);
+        (self.edge_rate, self.t_rate) = (EDGE_ERROR * length, T_ERROR * length);
         self.blur = (shift.abs() * (1.0 / (1 << 16) as f64)) as f32;
         self.least_distance = ((off + moving) * (0.5 / ROUNDING)) as f32;
         (self.scale, self.shift) = (scale, shift);
         self.t_near = (t_near - t_near.abs() * F32_SLACK) as f32;
-        self.near_error = self.error_at(self.t_near);
+        self.near_rate = self.rate_at(self.t_near);
         self.end((t_far + t_far.abs() * F32_SLACK) as f32);
         Ok(())
     }
@@ -170,14 +144,14 @@ impl Aim {
     #[inline(always)]
     pub(super) fn end(&mut self, t_far: f32) {
         self.t_far = t_far;
-        self.far_error = self.error_at(t_far);
+        self.far_rate = self.rate_at(t_far);
     }
 
-    /// What t adds to the error of T − t·den, a unit of ē². Where the origin was moved, the ends of
+    /// What t adds to the error of T − t·den a unit of m·n. Where the origin was moved, the ends of
     /// the interval are less sharp.
     #[inline(always)]
-    pub(super) fn error_at(&self, t: f32) -> f32 {
-        self.t_error * (t.abs() + self.blur)
+    pub(super) fn rate_at(&self, t: f32) -> f32 {
+        self.t_rate * (t.abs() + self.blur)
     }
 
     /// The kernels' t of a hit, or a little less, and a little more.
@@ -208,29 +182,6 @@ fn is_plain<S: Lanes>(simd: S, reach: f64, ray: &Ray<3>) -> bool {
         && direction.simd_ge(1.0 / LARGEST_COMPONENT).any_true()
 }
 
-/// The line of a ray that starts beyond the reach, is very long or very short, or is none.
-#[cold]
-#[inline(never)]
-fn line_in_reach(reach: f64, ray: &Ray<3>) -> Result<Line, NoAim> {
-    if ray.check().is_err() {
-        return Err(NoAim::Missed);
-    }
-    let size = |v: &[f64; 3]| v.iter().fold(0.0, |most, x| larger(most, x.abs()));
-    let (longest, farthest) = (size(&ray.direction), size(&ray.origin));
-    if !SIZES.contains(&longest) || farthest > reach * FARTHEST {
-        return Err(NoAim::OutOfRange);
-    }
-    let scale = power_of_two_below(longest);
-    let direction = ray.direction.map(|d| d * (1.0 / scale));
-    if farthest <= reach {
-        return Ok(Line { origin: ray.origin, direction, scale, shift: 0.0, moving: 0.0 });
-    }
-    let shift = entry(reach, &ray.origin, &direction).ok_or(NoAim::Missed)?;
-    let origin = std::array::from_fn(|k| ray.origin[k] + shift * direction[k]);
-    let moving = 2.0 * f64::EPSILON * (farthest + 2.0 * shift.abs());
-    Ok(Line { origin, direction, scale, shift, moving })
-}
-
 /// Three numbers and zero.
 #[inline(always)]
 fn load<S: Lanes>(simd: S, &[x, y, z]: &[f64; 3]) -> f64x4<S> {
@@ -241,34 +192,4 @@ fn load<S: Lanes>(simd: S, &[x, y, z]: &[f64; 3]) -> f64x4<S> {
 #[inline(always)]
 fn largest(&[x, y, z, _]: &[f64; 4]) -> f64 {
     larger(larger(x, y), z)
-}
-
-/// The larger of two numbers, if none is NaN.
-#[inline(always)]
-fn larger(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
-}
-
-/// The largest power of two that a normal number is not below.
-fn power_of_two_below(x: f64) -> f64 {
-    const EXPONENT: u64 = 0x7ff << 52;
-    f64::from_bits(x.to_bits() & EXPONENT)
-}
-
-/// Where the line of a ray enters the cube of `reach` around zero; `None` if it passes by. The mesh
-/// lies so far inside the cube that rounding does not matter.
-fn entry(reach: f64, origin: &[f64; 3], direction: &[f64; 3]) -> Option<f64> {
-    let (mut t_near, mut t_far) = (f64::NEG_INFINITY, f64::INFINITY);
-    for (&o, &d) in origin.iter().zip(direction) {
-        if d == 0.0 {
-            if o.abs() > reach {
-                return None;
-            }
-            continue;
-        }
-        let (low, high) = ((-reach - o) / d, (reach - o) / d);
-        t_near = t_near.max(low.min(high));
-        t_far = t_far.min(low.max(high));
-    }
-    (t_near <= t_far).then_some(t_near)
 }

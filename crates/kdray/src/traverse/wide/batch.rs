@@ -4,24 +4,24 @@
 //! on one ray fills the gaps that others leave: a few rays are under way at once, and take turns at
 //! nodes and at blocks.
 
-use super::aim::{Aim, NoAim};
+use super::aim::Aim;
 use super::climb::climb;
+use super::line::NoAim;
 use super::search::Search;
 use super::slab::Slabs;
 use super::stack::Stack;
+use super::stacks::{Stacks, UNDER_WAY, with_stacks};
 use super::start::Start;
 use crate::geometry::Ray;
 use crate::layout::{Link, WideTree};
-use crate::simd::{Kernel, Lanes};
+use crate::simd::{InstructionSet, Kernel, Lanes};
 use std::marker::PhantomData;
 
-/// Rays under way at once: their states should fit the first-level cache.
-const UNDER_WAY: usize = 16;
-
 /// A search along each of many rays.
-pub(crate) struct Batch<'a, Q, R, A, F> {
+struct Batch<'a, 's, Q, R, A, F> {
     tree: &'a WideTree,
     rays: R,
+    stacks: &'s mut Stacks,
     scalar: A,
     found: F,
     search: PhantomData<Q>,
@@ -32,7 +32,6 @@ struct Traveller<Q> {
     index: usize,
     aim: Aim,
     search: Q,
-    stack: Stack,
     /// Where it goes next: a node, the blocks of a leaf that are left, or the end.
     next: Link,
 }
@@ -60,21 +59,23 @@ impl Queue {
     }
 }
 
-impl<'a, Q: Search<'a>, R, A, F> Batch<'a, Q, R, A, F>
-where
-    R: Iterator<Item: Start>,
-    A: Fn(&Ray<3>) -> Q::Answer,
-    F: FnMut(usize, Q::Answer),
-{
-    /// Searches along `rays`, and gives `found` the number of each ray with its answer, as they
-    /// come. Rays that are out of the kernels' range are answered by `scalar`.
-    #[inline(always)]
-    pub(crate) fn new(tree: &'a WideTree, rays: R, scalar: A, found: F) -> Self {
-        Self { tree, rays, scalar, found, search: PhantomData }
-    }
+/// Searches along `rays`, and gives `found` the number of each ray with its answer, as they come.
+/// Rays that are out of the kernels' range are answered by `scalar`.
+#[inline(always)]
+pub(crate) fn search_along_each<'a, Q: Search<'a>>(
+    tree: &'a WideTree,
+    rays: impl Iterator<Item: Start>,
+    instructions: InstructionSet,
+    scalar: impl Fn(&Ray<3>) -> Q::Answer,
+    found: impl FnMut(usize, Q::Answer),
+) {
+    with_stacks(|stacks| {
+        let search = PhantomData::<Q>;
+        instructions.run(Batch { tree, rays, stacks, scalar, found, search });
+    });
 }
 
-impl<'a, Q: Search<'a>, R, A, F> Kernel for Batch<'a, Q, R, A, F>
+impl<'a, Q: Search<'a>, R, A, F> Kernel for Batch<'a, '_, Q, R, A, F>
 where
     R: Iterator<Item: Start>,
     A: Fn(&Ray<3>) -> Q::Answer,
@@ -84,7 +85,7 @@ where
 
     #[inline(always)]
     fn run<S: Lanes>(self, simd: S) {
-        let Self { tree, rays, scalar, mut found, .. } = self;
+        let Self { tree, rays, stacks, scalar, mut found, .. } = self;
         let mut rays = rays.enumerate().fuse();
         let mut travellers: [Traveller<Q>; UNDER_WAY] = std::array::from_fn(|_| Traveller::idle());
         let (mut nodes, mut leaves) = (Queue::default(), Queue::default());
@@ -93,7 +94,8 @@ where
             while let Some(slot) = idle.pop() {
                 let Some((index, ray)) = rays.next() else { break };
                 let traveller = &mut travellers[usize::from(slot) % UNDER_WAY];
-                let started = traveller.start(simd, tree, index, &ray);
+                let stack = &mut stacks[usize::from(slot) % UNDER_WAY];
+                let started = traveller.start(simd, tree, index, &ray, stack);
                 nodes.push_if(started.is_ok(), slot);
                 idle.push_if(started.is_err(), slot);
                 match started {
@@ -109,7 +111,8 @@ where
             for i in 0..std::mem::take(&mut nodes.len) {
                 let slot = nodes.slots[i % UNDER_WAY];
                 let traveller = &mut travellers[usize::from(slot) % UNDER_WAY];
-                traveller.pass_node(simd, tree);
+                let stack = &mut stacks[usize::from(slot) % UNDER_WAY];
+                traveller.pass_node(simd, tree, stack);
                 let is_leaf = traveller.next.is_leaf();
                 nodes.push_if(!is_leaf, slot);
                 leaves.push_if(is_leaf, slot);
@@ -117,7 +120,8 @@ where
             for i in 0..std::mem::take(&mut leaves.len) {
                 let slot = leaves.slots[i % UNDER_WAY];
                 let traveller = &mut travellers[usize::from(slot) % UNDER_WAY];
-                if traveller.next == Link::END || traveller.visit_block(simd, tree) {
+                let stack = &mut stacks[usize::from(slot) % UNDER_WAY];
+                if traveller.next == Link::END || traveller.visit_block(simd, tree, stack) {
                     let mut answer = Q::Answer::default();
                     traveller.search.answer(&mut answer);
                     found(traveller.index, answer);
@@ -135,8 +139,7 @@ where
 impl<'a, Q: Search<'a>> Traveller<Q> {
     fn idle() -> Self {
         let ray = Ray { origin: [0.0; 3], direction: [0.0; 3], interval: crate::Interval::FORWARD };
-        let (aim, stack) = (Aim::NONE, Stack::EMPTY);
-        Self { index: 0, search: Q::new(&ray), aim, stack, next: Link::ROOT }
+        Self { index: 0, search: Q::new(&ray), aim: Aim::NONE, next: Link::ROOT }
     }
 
     #[inline(always)]
@@ -146,35 +149,36 @@ impl<'a, Q: Search<'a>> Traveller<Q> {
         tree: &WideTree,
         index: usize,
         start: &T,
+        stack: &mut Stack,
     ) -> Result<(), NoAim> {
         self.aim.set(simd, tree, start.ray())?;
         self.search = Q::new(start.ray());
-        self.stack.clear();
+        stack.clear();
         self.index = index;
         self.next = Link::ROOT;
         if T::NEAR {
             let slabs = Slabs::new(simd, &self.aim);
-            self.next = climb::<S, Q>(simd, tree, start.hint(), &self.aim, &slabs, &mut self.stack);
+            self.next = climb::<S, Q>(simd, tree, start.hint(), &self.aim, &slabs, stack);
         }
         Ok(())
     }
 
     /// Passes the next node.
     #[inline(always)]
-    fn pass_node<S: Lanes>(&mut self, simd: S, tree: &WideTree) {
+    fn pass_node<S: Lanes>(&mut self, simd: S, tree: &WideTree, stack: &mut Stack) {
         let node = tree.node(self.next);
         let met = Slabs::new(simd, &self.aim).meet(simd, node);
-        self.next = self.stack.push_and_pop::<S, Q>(&met, self.aim.t_far);
+        self.next = stack.push_and_pop::<S, Q>(&met, self.aim.t_far);
     }
 
     /// Visits the next block of a leaf; true if the search is over.
     #[inline(always)]
-    fn visit_block<S: Lanes>(&mut self, simd: S, tree: &'a WideTree) -> bool {
+    fn visit_block<S: Lanes>(&mut self, simd: S, tree: &'a WideTree, stack: &mut Stack) -> bool {
         if self.search.visit(simd, tree.block(self.next, 0), &mut self.aim) {
             return true;
         }
         let rest = self.next.rest();
-        self.next = if rest.block_count() > 0 { rest } else { self.stack.pop::<Q>(self.aim.t_far) };
+        self.next = if rest.block_count() > 0 { rest } else { stack.pop::<Q>(self.aim.t_far) };
         false
     }
 }

@@ -17,9 +17,9 @@ pub(super) const T_ERROR: f32 = 40.0 * ROUNDING;
 /// What underflow may do to T and the edge functions: products of three numbers up to 2^34 that lost
 /// 2^-150 each, with room.
 const UNDERFLOW: f32 = f32::MIN_POSITIVE * (1 << 14) as f32;
-/// What ē² counts as at least, 2^-100. What underflow takes of den is multiplied by t: as t's share of
-/// the error is by D ≥ 2^-16 and 40 u, that is more than the 2^-140 which den may lose.
-const LEAST_EDGE_SQUARED: f32 = 1.0 / (1_u128 << 100) as f32;
+/// What m and n count as at least, 2^-50. What underflow takes of den, 2^-148 and as much a unit of
+/// m, is multiplied by t. As t's share of the error is m n D by 40 u, and D ≥ 2^-16, that is more.
+const LEAST_EDGE: f32 = 1.0 / (1_u64 << 50) as f32;
 
 /// Möller and Trumbore's numbers (1997) of eight triangles, with the sign of den taken out: a ray
 /// hits where U, V and W are not negative, at t = T / den.
@@ -65,7 +65,7 @@ impl<S: Lanes> BlockTest<S> {
         let (den, u, v, volume) = (dot(p, e1), dot(p, s), dot(q, direction), dot(q, e2));
         let w = den - u - v;
         let [edge_error, near_error, far_error, origin_error, t_error] = if EXACT {
-            error_bounds(simd, aim, [largest(e1).max(largest(e2)), largest(s)])
+            error_bounds(simd, aim, [largest(e1), largest(e2), largest(s)])
         } else {
             [f32x8::splat(simd, 0.0); 5]
         };
@@ -124,27 +124,30 @@ impl<S: Lanes> BlockTest<S> {
 
 /// Bounds for the errors of U, V and W, and of T − t·den for t = t_near and for t = t_far.
 ///
-/// With u half the distance from 1 to the next f32, D = |d|₁, ē the largest coordinate of e1 and
-/// e2, M that of s. Each term of U is rounded in d, e2 and s, twice in the cross product and three
-/// times in the dot product, and the terms sum to 2·D·ē·M: 16 u D ē M. V likewise; den with ē for
-/// M. W = (den − U) − V gathers all three, and two more roundings: 38 u D ē (M + ē). T has terms of
-/// 6·ē²·M in sum and eight roundings: 48 u ē² M. T is compared with t·den, to which den adds
-/// 16 u D ē² t, twice that where its sign is not sure, and the product a rounding of it.
+/// With u half the distance from 1 to the next f32, D = |d|₁, m and n the largest coordinates of e1
+/// and e2, ē the larger of them, M that of s. Each term of U is rounded in d, e2 and s, twice in the
+/// cross product and three times in the dot product, and the terms sum to 2·D·ē·M: 16 u D ē M. V
+/// likewise; den, whose terms sum to 2·D·m·n, 16 u D m n. W = (den − U) − V gathers all three, and
+/// two more roundings: 38 u D ē (M + ē). T has terms of 6·m·n·M in sum and eight roundings:
+/// 48 u m n M. T is compared with t·den, to which den adds 16 u D m n t, twice that where its sign is
+/// not sure, and the product a rounding of it. (m·n, not ē²: of slender triangles it is much less.)
 ///
-/// An origin that is not an f32 is off by E: U by 2·D·ē·E, T by 6·ē²·E. With M not below
-/// E / (2 u), as [`Aim`] sees to, that is at most 4 u D ē M, for W 8 u D ē M, and 12 u ē² M more: 46
+/// An origin that is not an f32 is off by E: U by 2·D·ē·E, T by 6·m·n·E. With M not below
+/// E / (2 u), as [`Aim`] sees to, that is at most 4 u D ē M, for W 8 u D ē M, and 12 u m n M more: 46
 /// and 60 in all.
 #[inline(always)]
-fn error_bounds<S: Lanes>(simd: S, aim: &Aim, [edge, distance]: [f32x8<S>; 2]) -> [f32x8<S>; 5] {
+fn error_bounds<S: Lanes>(simd: S, aim: &Aim, [m, n, distance]: [f32x8<S>; 3]) -> [f32x8<S>; 5] {
     let all = |x: f32| f32x8::splat(simd, x);
     let distance = distance.max(all(aim.least_distance));
-    let edge_error = (edge * (edge + distance)).mul_add(all(aim.edge_error), all(UNDERFLOW));
-    let volume_error = distance * all(VOLUME_ERROR);
-    let edge_squared = (edge * edge).max(all(LEAST_EDGE_SQUARED));
-    let t_error = |t_error: f32x8<S>| edge_squared.mul_add(volume_error + t_error, all(UNDERFLOW));
-    let [near_error, far_error] = [t_error(all(aim.near_error)), t_error(all(aim.far_error))];
-    let origin_error = t_error(all(aim.error_at(0.0)));
-    [edge_error, near_error, far_error, origin_error, edge_squared * all(aim.t_error)]
+    let (m, n) = (m.max(all(LEAST_EDGE)), n.max(all(LEAST_EDGE)));
+    let edge = m.max(n);
+    let edge_error = (edge * (edge + distance)).mul_add(all(aim.edge_rate), all(UNDERFLOW));
+    let volume_rate = distance * all(VOLUME_ERROR);
+    let edges = m * n;
+    let error = |rate: f32| edges.mul_add(volume_rate + all(rate), all(UNDERFLOW));
+    let (near_error, far_error) = (error(aim.near_rate), error(aim.far_rate));
+    let origin_error = error(aim.rate_at(0.0));
+    [edge_error, near_error, far_error, origin_error, edges * all(aim.t_rate)]
 }
 
 /// A corner of each triangle.

@@ -1,7 +1,8 @@
 //! The closest hit, with where it was found.
 
 use super::aim::Aim;
-use super::search::{Closest, Search};
+use super::closest::Closest;
+use super::search::Search;
 use crate::geometry::Ray;
 use crate::layout::TriangleBlock;
 use crate::primitives::Hit;

@@ -6,21 +6,27 @@
 //! decides. So hits are the same to the last bit as those of every other traversal.
 
 mod aim;
+mod any;
 mod batch;
 mod block;
 mod climb;
+mod closest;
 mod float;
+mod line;
 mod located;
 mod search;
 mod single;
 mod slab;
 mod stack;
+mod stacks;
 mod start;
 mod vector;
 
-pub(crate) use aim::NoAim;
-pub(crate) use batch::Batch;
+pub(crate) use any::Any;
+pub(crate) use batch::search_along_each;
+pub(crate) use closest::Closest;
+pub(crate) use line::NoAim;
 pub(crate) use located::Located;
-pub(crate) use search::{Any, Closest, Search};
+pub(crate) use search::Search;
 pub(crate) use single::{search_along, search_near};
 pub(crate) use start::{Near, Start};

@@ -1,9 +1,10 @@
 //! One ray through the wide tree.
 
-use super::aim::{Aim, NoAim};
+use super::aim::Aim;
 use super::climb::climb;
+use super::line::NoAim;
 use super::search::Search;
-use super::slab::Slabs;
+use super::slab::{Meeting, Slabs};
 use super::stack::Stack;
 use crate::geometry::Ray;
 use crate::layout::{Hint, Link, WideTree};
@@ -62,12 +63,13 @@ impl<'a, Q: Search<'a>, const NEAR: bool> Kernel for Single<'a, '_, Q, NEAR> {
             if !next.is_leaf() {
                 // A branch that is foretold rightly lets the next node be loaded before this one's
                 // boxes are tested.
-                let met = slabs.meet(simd, tree.node(next));
-                next = if met.count == 0 {
-                    stack.pop::<Q>(aim.t_far)
-                } else {
-                    stack.push_but_nearest::<S, Q>(&met);
-                    met.nearest
+                next = match slabs.meeting(simd, tree.node(next)) {
+                    Meeting::None => stack.pop::<Q>(aim.t_far),
+                    Meeting::One(child) => child,
+                    Meeting::Several(met) => {
+                        stack.push_but_nearest::<S, Q>(&met);
+                        met.nearest
+                    }
                 };
                 continue;
             }

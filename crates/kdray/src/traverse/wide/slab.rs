@@ -26,6 +26,13 @@ pub(super) struct Met<S: Lanes> {
     pub(super) lists: Lists<S>,
 }
 
+/// The same, told apart by how many they are.
+pub(super) enum Meeting<S: Lanes> {
+    None,
+    One(Link),
+    Several(Met<S>),
+}
+
 impl<S: Lanes> Slabs<S> {
     #[inline(always)]
     pub(super) fn new(simd: S, aim: &Aim) -> Self {
@@ -62,7 +69,21 @@ impl<S: Lanes> Slabs<S> {
         self.in_order(simd, node, t_near, met)
     }
 
-    /// The same without the child at a place.
+    /// The same, sooner where there is none or one: those need no order.
+    #[inline(always)]
+    pub(super) fn meeting(&self, simd: S, node: &WideNode) -> Meeting<S> {
+        let (t_near, met) = self.test(simd, node);
+        let places = met.to_bitmask();
+        if places == 0 {
+            Meeting::None
+        } else if places.is_power_of_two() {
+            Meeting::One(child(node, places.trailing_zeros()))
+        } else {
+            Meeting::Several(self.in_order(simd, node, t_near, met))
+        }
+    }
+
+    /// [`meet`](Self::meet) without the child at a place.
     #[inline(always)]
     pub(super) fn meet_but(&self, simd: S, node: &WideNode, place: u32) -> Met<S> {
         let (t_near, met) = self.test(simd, node);
@@ -86,8 +107,13 @@ impl<S: Lanes> Slabs<S> {
         let order = node.order(self.octant);
         let (met, lists) = simd.pack(met, order, Lists { t: t_near, links });
         // The nearest is last. It is looked up in the node: the way by the lists is longer.
-        let place = order.rotate_left(met.leading_zeros() * 4 + 4) & 7;
-        let nearest = Link::from_bits(node.links()[place as usize]);
+        let nearest = child(node, order.rotate_left(met.leading_zeros() * 4 + 4));
         Met { count: met.count_ones() as usize, nearest, lists }
     }
+}
+
+/// The child at a place, of which the lowest three bits count.
+#[inline(always)]
+fn child(node: &WideNode, place: u32) -> Link {
+    Link::from_bits(node.links()[(place & 7) as usize])
 }

@@ -10,6 +10,10 @@ use std::hint::select_unpredictable;
 
 /// Nodes and leaves that a ray has yet to visit, with where it enters their boxes; the next is on
 /// top. At the bottom lies [`Link::END`].
+///
+/// Aligned, so that stacks side by side lie 33 lines of a cache apart. Were it a power of two, the
+/// lower parts of all would contend for the same few places.
+#[repr(align(64))]
 pub(super) struct Stack {
     t: [f32; STACK_SIZE],
     links: [u32; STACK_SIZE],
