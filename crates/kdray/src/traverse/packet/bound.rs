@@ -4,9 +4,6 @@ use super::cull::Cull;
 use super::rays::PacketRay;
 use crate::geometry::{Interval, Ray};
 
-/// The part of a node in which no ray is.
-pub(super) const NOWHERE: Interval = Interval { t_min: f64::INFINITY, t_max: f64::NEG_INFINITY };
-
 /// A bound of some rays that have something in common.
 ///
 /// It has a t of its own for all of them. Every answer is conservative: where an exact hit lies, the

@@ -1,7 +1,7 @@
 //! What the rays of a frustum share: a point that they come from or go to, or a direction.
 
 use super::rays::PacketRay;
-use crate::geometry::Ray;
+use crate::geometry::{Interval, Ray};
 
 /// The steepest ray of a frustum, by the slope against its dominant axis. A wider frustum bounds
 /// hardly anything.
@@ -80,7 +80,7 @@ impl Bundle {
         runs && self.meeting.holds(ray)
             && sides.iter().all(|&side| self.slope(ray, side).abs() <= MAX_SLOPE)
             && sides.iter().all(|&side| self.offset(ray, side)[1].is_finite())
-            && self.depths(ray, [it.inside.t_min, it.inside.t_max]).iter().all(|z| z.is_finite())
+            && self.depths(ray, it.inside).t_max.is_finite()
     }
 
     /// The two other axes.
@@ -101,16 +101,17 @@ impl Bundle {
         [from_base - way - error, from_base - way + error]
     }
 
-    /// The least and the greatest z between two t of a ray, with slack for the t of hits.
-    pub(super) fn depths(&self, ray: &Ray<3>, t: [f64; 2]) -> [f64; 2] {
+    /// The depths between two t of a ray, with slack for the t of hits.
+    pub(super) fn depths(&self, ray: &Ray<3>, t: Interval) -> Interval {
         let start = self.depth_of_origin(ray);
-        let z = t.map(|t| {
+        let depth = |t: f64| {
             let way = self.sign * ray.direction[self.axis] * t;
             let slack = (start.abs() + way.abs()) * T_SLACK + f64::MIN_POSITIVE;
-            [start + way - slack, start + way + slack]
-        });
+            Interval { t_min: start + way - slack, t_max: start + way + slack }
+        };
+        let depths = depth(t.t_min).union(depth(t.t_max));
         // The base lies behind all that counts of a ray.
-        [z[0][0].min(z[1][0]).max(0.0), z[0][1].max(z[1][1])]
+        Interval { t_min: depths.t_min.max(0.0), ..depths }
     }
 
     fn depth_of_origin(&self, ray: &Ray<3>) -> f64 {

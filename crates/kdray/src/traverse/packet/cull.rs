@@ -79,10 +79,10 @@ impl Frustum {
     /// share a sign, which is that of their sum.
     fn passes_beside(&self, [a, b, c]: &[Local; 3]) -> bool {
         let edges = [self.edge(b, c), self.edge(c, a), self.edge(a, b)];
-        let left = edges.iter().any(|edge| edge.is_positive());
-        let right = edges.iter().any(|edge| edge.is_negative());
         let sum = edges[0].plus(&edges[1]).plus(&edges[2]);
-        left && right || right && sum.is_positive() || left && sum.is_negative()
+        let is_left = edges.iter().any(AtCorners::is_positive);
+        let is_right = edges.iter().any(AtCorners::is_negative);
+        is_left && (is_right || sum.is_negative()) || is_right && sum.is_positive()
     }
 
     /// The edge function d · ((p − o) x (q − o)) at the corner rays.

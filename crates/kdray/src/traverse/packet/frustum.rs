@@ -4,7 +4,7 @@
 //! rays* run where these meet (Reshetov, Soupikov & Hurley 2005; Wald, Boulos & Shirley 2007). For
 //! parallel rays the rectangle is one of offsets, and the frustum a prism.
 
-use super::bound::{Bound, NOWHERE};
+use super::bound::Bound;
 use super::bundle::{Bundle, Meeting, rounding};
 use super::cull::Cull;
 use super::rays::PacketRay;
@@ -50,11 +50,11 @@ impl Line {
         } else if self.slope < 0.0 {
             Interval { t_min: inside.t_min.max(t_below(gap / self.slope)), ..inside }
         } else if gap < 0.0 {
-            NOWHERE
+            Interval::EMPTY
         } else {
             inside
         };
-        if part.is_empty() { NOWHERE } else { part }
+        if part.is_empty() { Interval::EMPTY } else { part }
     }
 }
 
@@ -115,7 +115,7 @@ impl Bound for Frustum {
     fn around(bundle: &Bundle, rays: &[PacketRay]) -> Self {
         let middle = Line { offset: 0.0, slope: bundle.sign };
         let mut frustum =
-            Self { bundle: *bundle, low: [middle; 3], high: [middle; 3], inside: NOWHERE };
+            Self { bundle: *bundle, low: [middle; 3], high: [middle; 3], inside: Interval::EMPTY };
         for axis in bundle.sides() {
             let least = |values: &dyn Fn(&Ray<3>) -> f64| {
                 rays.iter().map(|ray| values(ray.ray())).fold(f64::INFINITY, f64::min)
@@ -134,16 +134,12 @@ impl Bound for Frustum {
     }
 
     fn inside_root(&self, rays: &[PacketRay]) -> Interval {
-        rays.iter().fold(NOWHERE, |all, ray| {
-            let Interval { t_min, t_max } = ray.inside;
-            let [first, last] = self.bundle.depths(ray.ray(), [t_min, t_max]);
-            Interval { t_min: all.t_min.min(first), t_max: all.t_max.max(last) }
-        })
+        let depths = rays.iter().map(|ray| self.bundle.depths(ray.ray(), ray.inside));
+        depths.fold(Interval::EMPTY, Interval::union)
     }
 
     fn reach(&self, ray: &Ray<3>) -> f64 {
-        let Interval { t_min, t_max } = ray.interval;
-        self.bundle.depths(ray, [t_min, t_max])[1]
+        self.bundle.depths(ray, ray.interval).t_max
     }
 
     fn lower_is_near(&self, axis: usize, split: f64) -> bool {

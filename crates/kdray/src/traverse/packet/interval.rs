@@ -4,7 +4,7 @@
 //! their inverse directions (Reshetov, Soupikov & Hurley 2005; Boulos, Wald & Shirley 2006). A child
 //! is left out if the bounds alone say that no ray can be in it.
 
-use super::bound::{Bound, NOWHERE};
+use super::bound::Bound;
 use super::rays::PacketRay;
 use super::signs::Signs;
 use crate::geometry::{Interval, Ray, t_above, t_below};
@@ -45,9 +45,7 @@ impl Bound for RayInterval {
     }
 
     fn inside_root(&self, rays: &[PacketRay]) -> Interval {
-        let [t_min, _] = range(rays.iter().map(|ray| ray.inside.t_min));
-        let [_, t_max] = range(rays.iter().map(|ray| ray.inside.t_max));
-        Interval { t_min, t_max }
+        rays.iter().map(|ray| ray.inside).fold(Interval::EMPTY, Interval::union)
     }
 
     fn reach(&self, ray: &Ray<3>) -> f64 {
@@ -62,7 +60,7 @@ impl Bound for RayInterval {
         let [first, last] = self.t_split(axis, split);
         let near = Interval { t_max: inside.t_max.min(last), ..inside };
         let far = Interval { t_min: inside.t_min.max(first), ..inside };
-        [near, far].map(|part| if part.is_empty() { NOWHERE } else { part })
+        [near, far].map(|part| if part.is_empty() { Interval::EMPTY } else { part })
     }
 }
 

@@ -1,6 +1,5 @@
 //! Eight lanes, as a vector has, and sets of them.
 
-use super::bound::NOWHERE;
 use crate::geometry::Interval;
 
 /// How many lanes a packet has at most.
@@ -56,9 +55,6 @@ impl Inside {
 
     /// From the least t_near to the greatest t_far.
     pub(super) fn hull(&self) -> Interval {
-        self.0.iter().fold(NOWHERE, |hull, lane| Interval {
-            t_min: hull.t_min.min(lane.t_min),
-            t_max: hull.t_max.max(lane.t_max),
-        })
+        self.0.iter().copied().fold(Interval::EMPTY, Interval::union)
     }
 }

@@ -1,7 +1,7 @@
 //! A lane of one ray: the interval of each ray, as Wald, Slusallek, Benthin & Wagner (2001) keep it.
 
 use super::super::leaf_walk::inverse;
-use super::bound::{Bound, NOWHERE};
+use super::bound::Bound;
 use super::rays::PacketRay;
 use super::signs::Signs;
 use crate::geometry::{Interval, Ray, t_above, t_below};
@@ -52,9 +52,9 @@ impl Bound for MaskedRay {
         let Interval { t_min: t_near, t_max: t_far } = inside;
         let t_split = self.signs.ahead(axis, split - self.origin[axis]) * self.inverse[axis];
         if t_split > t_far {
-            [inside, NOWHERE]
+            [inside, Interval::EMPTY]
         } else if t_split < t_near {
-            [NOWHERE, inside]
+            [Interval::EMPTY, inside]
         } else {
             let near = Interval { t_min: t_near, t_max: t_above(t_split).min(t_far) };
             [near, Interval { t_min: t_below(t_split).max(t_near), t_max: t_far }]

@@ -3,6 +3,7 @@
 use super::frustum::Frustum;
 use super::lanes::LaneMask;
 use crate::traverse::Counters;
+use std::iter::Sum;
 
 /// Where a packet goes from a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -122,6 +123,21 @@ pub struct PacketCounters {
     pub single: Counters,
 }
 
+impl Sum for PacketCounters {
+    fn sum<I: Iterator<Item = Self>>(all: I) -> Self {
+        all.fold(Self::default(), |sum, next| Self {
+            packets: sum.packets + next.packets,
+            decisions: sum.decisions + next.decisions,
+            leaves: sum.leaves + next.leaves,
+            culled: sum.culled + next.culled,
+            set_ups: sum.set_ups + next.set_ups,
+            tests: sum.tests + next.tests,
+            left: sum.left + next.left,
+            single: [sum.single, next.single].into_iter().sum(),
+        })
+    }
+}
+
 impl PacketTrace for PacketCounters {
     fn packet(&mut self, _rays: usize) {
         self.packets += 1;
@@ -149,8 +165,6 @@ impl PacketTrace for PacketCounters {
 
     fn left(&mut self, _ray: usize, cost: &Counters) {
         self.left += 1;
-        self.single.splits += cost.splits;
-        self.single.leaves += cost.leaves;
-        self.single.primitives += cost.primitives;
+        self.single = [self.single, *cost].into_iter().sum();
     }
 }

@@ -1,6 +1,6 @@
 //! The stack traversal of a packet: the single one (S11), with lanes in place of the ray.
 
-use super::bound::{Bound, NOWHERE};
+use super::bound::Bound;
 use super::cull::Cull;
 use super::lanes::{Inside, LANES, LaneMask};
 use super::mailbox::Mailbox;
@@ -56,7 +56,7 @@ impl<'a, B: Bound, P: Cull> PacketWalk<'a, B, P> {
             reach: f64::INFINITY,
         };
         let lanes: ArrayVec<Lane<'a, B>, LANES> = groups.map(lane).collect();
-        let mut inside = Inside([NOWHERE; LANES]);
+        let mut inside = Inside([Interval::EMPTY; LANES]);
         for (number, lane) in lanes.iter().enumerate() {
             inside.0[number] = lane.bound.inside_root(lane.rays);
             if let Some(frustum) = lane.bound.as_frustum() {
@@ -85,7 +85,7 @@ impl<'a, B: Bound, P: Cull> PacketWalk<'a, B, P> {
         let mut open = *inside;
         for (part, lane) in open.0.iter_mut().zip(&self.lanes) {
             if part.t_min > lane.reach {
-                *part = NOWHERE;
+                *part = Interval::EMPTY;
             }
         }
         open
@@ -127,7 +127,7 @@ impl<'a, B: Bound, P: Cull> PacketWalk<'a, B, P> {
 
     /// Where the lanes are in the near child, and where in the far one.
     fn children(&self, axis: usize, split: f64, inside: &Inside) -> [Inside; 2] {
-        let mut children = [Inside([NOWHERE; LANES]); 2];
+        let mut children = [Inside([Interval::EMPTY; LANES]); 2];
         for number in inside.lanes().lanes() {
             let parts = self.lanes[number].bound.children(axis, split, inside.0[number]);
             for (child, part) in children.iter_mut().zip(parts) {
