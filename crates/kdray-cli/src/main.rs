@@ -3,6 +3,7 @@
 #![forbid(unsafe_code)]
 
 mod args;
+mod backdrop;
 mod build;
 mod cli;
 mod commands;

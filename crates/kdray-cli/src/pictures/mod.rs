@@ -8,6 +8,7 @@ mod bars;
 mod canvas;
 mod file;
 mod legend;
+mod over_render;
 mod palette;
 mod panel;
 mod projector;
