@@ -2,6 +2,7 @@
 
 mod table;
 mod tile;
+mod tile_json;
 mod tile_table;
 
 use crate::{

@@ -45,7 +45,7 @@ pub(crate) fn draw_frustum_path(it: &FrustumPath<'_>) -> Option<Canvas> {
     let root = section.rect(it.scene.tree().bounds())?;
     let panels = panels(it, &section, &fates, root)?;
     let highest = panels.iter().map(|(_, panel)| panel.size[1]).fold(0.0, f64::max);
-    let legend = legend(&section);
+    let legend = legend(&section, &fates);
     let legend_top = TOP + highest + 52.0;
     let height = legend_top + legend::height(&legend, WIDTH - 48.0) + 12.0;
     let mut canvas = Canvas::new(WIDTH, height, it.title);
@@ -145,13 +145,15 @@ fn polygon(section: &Section, panel: &Panel, frustum: &Frustum, end: f64) -> Opt
     })
 }
 
-fn legend(section: &Section) -> Vec<Vec<Entry>> {
-    let cells = vec![
+fn legend(section: &Section, fates: &Fates) -> Vec<Vec<Entry>> {
+    let mut cells = vec![
         Entry::area(palette::VISITED, "leaf: rays tested"),
         Entry::area(palette::PASSED, "leaf: nothing to test, the bound decided alone"),
         Entry::area(palette::LEFT_OUT, "left out by the bound in one decision"),
-        Entry::area(palette::PALE, "behind the hits of all rays"),
     ];
+    if !fates.dropped.is_empty() {
+        cells.push(Entry::area(palette::PALE, "behind the hits of all rays"));
+    }
     let splits = (0..3).map(|axis| {
         let text = format!("split perpendicular to {}", palette::AXIS_NAMES[axis]);
         Entry::line(palette::AXES[axis], 2.0, text)

@@ -1,6 +1,6 @@
 //! `kdray trace --tile`: the rays through a tile of pixels, as a packet in a frustum (S12).
 
-use super::{Args, tile_table};
+use super::{Args, tile_json, tile_table};
 use crate::{
     args::Size,
     backdrop::Backdrop,
@@ -61,7 +61,7 @@ pub(super) fn run(args: &Args, pixel: (usize, usize), globals: &Globals) -> Resu
     let rays = tile.rays(&view, args);
     let traced = TileTrace::new(tile, world.scene().shapes(), &rays)?;
     if args.table.json {
-        print_json(&tile_table::json(&traced))?;
+        print_json(&tile_json::json(&traced))?;
     } else {
         output::print(tile_table::text(&traced).as_bytes())?;
     }
@@ -78,20 +78,31 @@ pub(super) fn run(args: &Args, pixel: (usize, usize), globals: &Globals) -> Resu
     }
     if let (Some(file), Some(out)) = (view_file, &args.tile.out_3d) {
         let camera = aside(args, &camera, &traced, &ray);
-        let (view, size, samples) = (&args.view, SIZE_IN_SPACE, args.tile.samples);
-        let backdrop = Backdrop { world: &world, camera: &camera, view, size, samples };
-        let picture = FrustumView {
-            scene: traced.scene,
-            camera: &camera,
-            render: &backdrop.render(out, globals)?,
-            size: [size.width as f64, size.height as f64],
-            steps: &traced.steps,
-            hit_points: &traced.hit_points(),
-            title: &title,
-        };
-        file.write(draw_frustum_view(&picture), 1.0)?;
+        let (view, samples) = (&args.view, args.tile.samples);
+        let backdrop =
+            Backdrop { world: &world, camera: &camera, view, size: SIZE_IN_SPACE, samples };
+        write_view(file, &traced, &camera, &backdrop.render(out, globals)?, &title)?;
     }
     Ok(())
+}
+
+fn write_view(
+    file: PictureFile,
+    traced: &TileTrace<'_>,
+    camera: &Camera,
+    render: &[u8],
+    title: &str,
+) -> Result<(), CliError> {
+    let picture = FrustumView {
+        scene: traced.scene,
+        camera,
+        render,
+        size: [SIZE_IN_SPACE.width as f64, SIZE_IN_SPACE.height as f64],
+        steps: &traced.steps,
+        hit_points: &traced.hit_points(),
+        title,
+    };
+    file.write(draw_frustum_view(&picture), 1.0)
 }
 
 fn write_path(

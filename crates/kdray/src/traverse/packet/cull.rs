@@ -31,7 +31,7 @@ impl Cull for TriangleMesh {
 /// and what parallel rays differ in slope, with room to spare.
 const EDGE_ERROR: f64 = 1024.0 * f64::EPSILON;
 
-/// What stands for z in local coordinates: across on two axes, then along the dominant one.
+/// A point as the frustum sees it: across on two axes, then the depth.
 type Local = [f64; 3];
 
 impl Frustum {

@@ -34,10 +34,6 @@ pub(super) struct Line {
 }
 
 impl Line {
-    fn at(self, z: f64) -> f64 {
-        self.offset + self.slope * z
-    }
-
     fn mirrored(self) -> Self {
         Self { offset: -self.offset, slope: -self.slope }
     }
@@ -88,11 +84,6 @@ impl Frustum {
             corner(high[i], high[j]),
             corner(low[i], high[j]),
         ]
-    }
-
-    /// The least and the greatest coordinate on an axis at a depth.
-    pub fn extent(&self, axis: usize, depth: f64) -> [f64; 2] {
-        [self.low[axis], self.high[axis]].map(|line| self.bundle.base[axis] + line.at(depth))
     }
 }
 

@@ -5,18 +5,13 @@ use crate::geometry::Interval;
 /// How many lanes a packet has at most.
 pub(super) const LANES: usize = 8;
 
-/// A set of lanes.
+/// A set of lanes, a bit each, lane 0 the lowest.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct LaneMask(u8);
+pub struct LaneMask(pub(super) u8);
 
 impl LaneMask {
     /// No lane.
     pub const NONE: Self = Self(0);
-
-    /// The lanes whose bits are set, lane 0 the lowest.
-    pub fn from_bits(bits: u8) -> Self {
-        Self(bits)
-    }
 
     /// Whether there is no lane.
     pub fn is_empty(self) -> bool {

@@ -30,7 +30,7 @@ mod tests {
     #[test]
     fn a_lane_meets_a_primitive_once() {
         let mut mailbox = Mailbox::new();
-        let lanes = |bits| LaneMask::from_bits(bits);
+        let lanes = LaneMask;
         assert_eq!(mailbox.unmet(0, lanes(0b011)), lanes(0b011));
         assert_eq!(mailbox.unmet(0, lanes(0b110)), lanes(0b100));
         assert_eq!(mailbox.unmet(64, lanes(0b001)), lanes(0b001), "another one of its slot");

@@ -94,35 +94,49 @@ impl<'a, B: Bound, P: Cull> PacketWalk<'a, B, P> {
     /// Goes down to a leaf, or to where the bounds leave both children out.
     fn descend(&mut self, mut node: u32, mut inside: Inside, trace: &mut impl PacketTrace) {
         while let NodeKind::Inner { axis, split, above } = self.tree.nodes[node as usize].kind() {
-            let children = self.children(axis, split.into(), &inside);
-            let [near_lanes, far_lanes] = children.map(|child| child.lanes());
-            let below = node + 1;
-            let lower_is_near = self.lanes[0].bound.lower_is_near(axis, split.into());
-            let (near, far) = if lower_is_near { (below, above) } else { (above, below) };
-            if !near_lanes.is_empty() && !far_lanes.is_empty() {
-                self.stack.push(Waiting { node: far, inside: children[1] });
+            match self.decide(node, (axis, split, above), &inside, trace) {
+                Some(child) => (node, inside) = child,
+                None => return,
             }
-            let Interval { t_min: t_near, t_max: t_far } = inside.hull();
-            trace.split(&PacketSplitStep {
-                node,
-                axis,
-                split,
-                t_near,
-                t_far,
-                lanes: inside.lanes(),
-                near_lanes,
-                far_lanes,
-                near_child: near,
-                far_child: far,
-                stack_depth: self.stack.len(),
-            });
-            (node, inside) = match (near_lanes.is_empty(), far_lanes.is_empty()) {
-                (false, _) => (near, children[0]),
-                (true, false) => (far, children[1]),
-                (true, true) => return,
-            };
         }
         self.visit_leaf(node, &inside, trace);
+    }
+
+    /// Where to go from an inner node: to the child returned, while the other one may wait.
+    fn decide(
+        &mut self,
+        node: u32,
+        (axis, split, above): (usize, f32, u32),
+        inside: &Inside,
+        trace: &mut impl PacketTrace,
+    ) -> Option<(u32, Inside)> {
+        let [in_near, in_far] = self.children(axis, split.into(), inside);
+        let (near_lanes, far_lanes) = (in_near.lanes(), in_far.lanes());
+        let (below, bound) = (node + 1, &self.lanes[0].bound);
+        let lower_is_near = bound.lower_is_near(axis, split.into());
+        let (near, far) = if lower_is_near { (below, above) } else { (above, below) };
+        if !near_lanes.is_empty() && !far_lanes.is_empty() {
+            self.stack.push(Waiting { node: far, inside: in_far });
+        }
+        let Interval { t_min: t_near, t_max: t_far } = inside.hull();
+        trace.split(&PacketSplitStep {
+            node,
+            axis,
+            split,
+            t_near,
+            t_far,
+            lanes: inside.lanes(),
+            near_lanes,
+            far_lanes,
+            near_child: near,
+            far_child: far,
+            stack_depth: self.stack.len(),
+        });
+        match (near_lanes.is_empty(), far_lanes.is_empty()) {
+            (false, _) => Some((near, in_near)),
+            (true, false) => Some((far, in_far)),
+            (true, true) => None,
+        }
     }
 
     /// Where the lanes are in the near child, and where in the far one.
