@@ -116,6 +116,20 @@ fn shadow_rays_are_bounded_from_the_light() {
 }
 
 #[test]
+fn what_stands_at_the_light_is_hit() {
+    for scene in scenes() {
+        for corner in [0, 1] {
+            let light = scene.primitives().corners(0)[corner].map(f64::from);
+            let places = camera([0.0; 3], [0.3, 0.2, -2.0], 1.5);
+            let rays = places.iter().map(|ray| Ray::through(ray.direction, light));
+            let rays: Vec<Ray> = rays.map(|ray| ray.with_interval(1.0 - 1e-12, 1.0)).collect();
+            assert_same(&scene, &rays);
+            assert!(scene.packets(PacketKind::Frustum).any_hits(&rays, &mut ()).contains(&true));
+        }
+    }
+}
+
+#[test]
 fn rays_in_split_planes_and_through_corners_lose_no_hit() {
     for scene in scenes() {
         let corners = (0..40).map(|i| {
