@@ -38,6 +38,3 @@ pub use recorder::{PacketRecorder, PacketStep};
 pub use trace::{PacketCounters, PacketDecision, PacketLeafStep, PacketSplitStep, PacketTrace};
 
 use lanes::LANES;
-
-#[cfg(test)]
-mod tests;

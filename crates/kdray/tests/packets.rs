@@ -1,8 +1,8 @@
 //! All kinds of packets against the single traversal.
 
-use super::*;
-use crate::primitives::{Balls, HitRule, TriangleMesh};
-use crate::{BuildOptions, Ray, ShapeScene, Strategy};
+use kdray::primitives::{Balls, HitRule, TriangleMesh, intersect_triangle};
+use kdray::traverse::{Cull, PacketCounters, PacketKind, PacketRecorder, PacketStep};
+use kdray::{BuildOptions, Ray, ShapeScene, Strategy};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
@@ -35,9 +35,9 @@ fn octahedron() -> Soup {
 fn scenes() -> Vec<ShapeScene> {
     let soups = [soup(300, false, 1), soup(300, true, 2), octahedron(), soup(1, false, 3)];
     let scene = |(soup, strategy): (&Soup, Strategy)| {
-        let mesh = TriangleMesh::from_soup(soup.clone()).unwrap();
+        let mesh = TriangleMesh::from_soup(soup.clone()).expect("test meshes are finite");
         let options = BuildOptions { leaf_size: 1, ..BuildOptions::for_strategy(strategy) };
-        ShapeScene::build(mesh, &options).unwrap()
+        ShapeScene::build(mesh, &options).expect("test meshes are valid")
     };
     soups.iter().flat_map(|soup| Strategy::ALL.map(|strategy| scene((soup, strategy)))).collect()
 }
@@ -237,12 +237,7 @@ fn what_a_frustum_culls_is_hit_by_none_of_its_rays() {
                 {
                     missed += 1;
                     for ray in rays {
-                        let hit = crate::primitives::intersect_triangle(
-                            &mesh.corners(id),
-                            id,
-                            ray,
-                            HitRule::Touching,
-                        );
+                        let hit = intersect_triangle(&mesh.corners(id), id, ray, HitRule::Touching);
                         assert_eq!(hit, None);
                     }
                 }
