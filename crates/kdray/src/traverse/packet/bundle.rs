@@ -1,7 +1,7 @@
 //! What the rays of a frustum share: a point that they come from or go to, or a direction.
 
 use super::rays::PacketRay;
-use crate::geometry::{Interval, Ray};
+use crate::geometry::{Interval, Ray, t_above, t_below};
 
 /// The steepest ray of a frustum, by the slope against its dominant axis. A wider frustum bounds
 /// hardly anything.
@@ -106,8 +106,8 @@ impl Bundle {
         let start = self.depth_of_origin(ray);
         let depth = |t: f64| {
             let way = self.sign * ray.direction[self.axis] * t;
-            let slack = (start.abs() + way.abs()) * T_SLACK + f64::MIN_POSITIVE;
-            Interval { t_min: start + way - slack, t_max: start + way + slack }
+            let error = rounding(start, way);
+            Interval { t_min: start + t_below(way) - error, t_max: start + t_above(way) + error }
         };
         let depths = depth(t.t_min).union(depth(t.t_max));
         // The base lies behind all that counts of a ray.
@@ -118,9 +118,6 @@ impl Bundle {
         self.sign * (ray.origin[self.axis] - self.base[self.axis])
     }
 }
-
-/// The slack of `geometry/slack.rs`, for sums that may cancel.
-const T_SLACK: f64 = 1.0 / (1u64 << 38) as f64;
 
 /// A bound for the error of a sum of two numbers that themselves were rounded a few times.
 pub(super) fn rounding(a: f64, b: f64) -> f64 {
