@@ -82,7 +82,7 @@ fn on_rays<S: Subject<K> + Send + Sync, const K: usize>(
 }
 
 /// Rays in the split planes of a case's tree.
-fn in_split_planes<S: Subject<K>, const K: usize>(
+pub(crate) fn in_split_planes<S: Subject<K>, const K: usize>(
     case: &Case<S, K>,
     tree: &KdTree<K>,
 ) -> Vec<Aimed<K>> {
@@ -240,6 +240,6 @@ fn in_sphere<S: Subject<K>, const K: usize>(
     Naive::new(scene.primitives(), BoundingSphere::of_aabb(scene.tree().bounds()))
 }
 
-fn same<T: PartialEq + std::fmt::Debug>(found: &T, naive: &T) -> Result<(), String> {
+pub(crate) fn same<T: PartialEq + std::fmt::Debug>(found: &T, naive: &T) -> Result<(), String> {
     if found == naive { Ok(()) } else { Err(format!("found {found:?}, without a tree {naive:?}")) }
 }

@@ -1,14 +1,17 @@
 //! Every strategy, kind of primitive and query, against the answer of testing every primitive and
 //! against rational arithmetic. A test's name says which: `sah::triangles::closest_hit`; those of
-//! the kernels name their instruction set: `sah::kernels::avx2::closest_hit`.
+//! the kernels name their instruction set: `sah::kernels::avx2::closest_hit`, and those of packets
+//! their kind: `sah::packets::frustum::triangles`.
 
 mod cases;
 mod checks;
+mod packets;
 
 use cases::{BALLS_2D, BALLS_3D, SEGMENTS, TRIANGLES};
 use checks::{all_hits, all_touched, any_hit, closest_hit, count};
 use checks::{kernel_any_hit, kernel_any_hit_near, kernel_closest_hit};
 use kdray::build::SahBuilder;
+use kdray::traverse::PacketKind;
 use kdray::{BuildOptions, Preset, Strategy};
 
 macro_rules! queries {
@@ -63,6 +66,30 @@ macro_rules! kernels {
     };
 }
 
+macro_rules! packets {
+    ($($kind:ident = $packet:ident)*) => {
+        mod packets {
+            use super::*;
+
+            $(
+                mod $kind {
+                    use super::*;
+
+                    #[test]
+                    fn triangles() {
+                        crate::packets::on_each(&options(), &TRIANGLES, PacketKind::$packet);
+                    }
+
+                    #[test]
+                    fn balls() {
+                        crate::packets::on_each(&options(), &BALLS_3D, PacketKind::$packet);
+                    }
+                }
+            )*
+        }
+    };
+}
+
 macro_rules! builder {
     ($name:ident, $options:expr) => {
         mod $name {
@@ -77,6 +104,7 @@ macro_rules! builder {
             queries!(balls_2d, BALLS_2D, closest_hit any_hit all_hits all_touched count);
             queries!(balls_3d, BALLS_3D, closest_hit any_hit all_hits all_touched count);
             kernels!(portable neon avx2 avx512);
+            packets!(masked = Masked interval = Interval frustum = Frustum);
         }
     };
 }

@@ -4,6 +4,7 @@
 #![forbid(unsafe_code)]
 
 pub mod agree;
+pub mod bundles;
 pub mod closed;
 pub mod command_line;
 pub mod flat;

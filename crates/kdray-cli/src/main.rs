@@ -3,6 +3,7 @@
 #![forbid(unsafe_code)]
 
 mod args;
+mod backdrop;
 mod build;
 mod cli;
 mod commands;
@@ -14,6 +15,7 @@ mod pictures;
 mod progress;
 mod query;
 mod table;
+mod tiles;
 
 use std::process::ExitCode;
 

@@ -2,9 +2,9 @@
 
 mod support;
 
-use resvg::usvg::roxmltree::{Document, Node};
 use serde_json::Value;
-use std::{fs, path::Path};
+use std::fs;
+use support::seen::{count_class, json, number, png_size};
 use support::{Folder, INPUT, OUTPUT, USAGE, bumpy_ball};
 
 /// The triangle of the lecture's worked example (S4): its box is (−2, −2, 4) to (2, 2, 9).
@@ -20,32 +20,8 @@ fn folder() -> Folder {
     folder
 }
 
-fn json(folder: &Folder, arguments: &[&str]) -> Value {
-    let ran = folder.kdray(&[arguments, &["--json"]].concat()).succeeds();
-    serde_json::from_str(&ran.stdout).expect("JSON")
-}
-
-fn number(value: &Value) -> f64 {
-    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
-}
-
 fn near(value: &Value, expected: f64) -> bool {
     (number(value) - expected).abs() < 1e-9
-}
-
-/// How many elements of a well-formed SVG have this class.
-fn count_class(path: &Path, class: &str) -> usize {
-    let text = fs::read_to_string(path).expect("the picture");
-    let document = Document::parse(&text).expect("well-formed XML");
-    assert_eq!(document.root_element().tag_name().name(), "svg");
-    document
-        .descendants()
-        .filter(|node: &Node<'_, '_>| node.attribute("class") == Some(class))
-        .count()
-}
-
-fn png_size(path: &Path) -> (u32, u32) {
-    image::ImageReader::open(path).expect("the picture").into_dimensions().expect("a PNG")
 }
 
 fn steps<'a>(trace: &'a Value, kind: &str) -> Vec<&'a Value> {

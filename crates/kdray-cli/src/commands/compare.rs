@@ -1,8 +1,10 @@
-//! `kdray compare`: the four strategies and the naive answer, side by side.
+//! `kdray compare`: the four strategies and the naive answer, side by side; or packets and single
+//! rays.
 
 mod contender;
 mod counted;
 mod measure;
+mod packets;
 mod plot;
 mod rays;
 mod report;
@@ -40,6 +42,9 @@ const MAX_RAYS: i64 = 1 << 22;
 Example: a table, and the same as bar charts
   kdray compare bunny.ply --plot bunny.svg
 
+Example: packets of rays beside single ones
+  kdray compare bunny.ply --packets
+
 Example: a million camera rays
   kdray compare bunny.ply --size 1024x1024 --rays 1048576")]
 pub(crate) struct Args {
@@ -57,6 +62,10 @@ pub(crate) struct Args {
     /// Also draw bar charts: a name that ends in .svg or .png
     #[arg(long, value_name = "OUT.svg|png")]
     plot: Option<PathBuf>,
+    /// Compare packets of camera rays with single ones instead, on the tree of sah: how often a node
+    /// is decided upon, a triangle set up and a ray tested. Rays fill tiles of 16 x 16 pixels
+    #[arg(long, conflicts_with_all = ["rounds", "no_naive", "plot"])]
+    packets: bool,
     #[command(flatten)]
     view: ViewArgs,
     #[command(flatten)]
@@ -67,6 +76,9 @@ pub(crate) struct Args {
 
 /// Builds all trees, asks all questions, and compares answers and times.
 pub(crate) fn run(args: &Args, globals: &Globals) -> Result<(), CliError> {
+    if args.packets {
+        return packets::run(args, globals);
+    }
     let plot = args.plot.as_deref().map(PictureFile::create).transpose()?;
     let mut model = load::model(&args.scene, globals)?;
     let mesh = take_mesh(&mut model)?;

@@ -2,18 +2,18 @@
 
 use crate::{
     args::{BuildArgs, SceneArgs, ViewArgs},
+    backdrop::Backdrop,
     build,
     cli::Globals,
     error::CliError,
-    interrupt, load,
+    load,
     pictures::{
         LineColor, PictureFile, Section, Slice, Wireframe, draw_slice, draw_wireframe, readable,
         scene_name,
     },
-    progress::{self, Progress},
+    progress,
 };
-use kdray_render::{PngDepth, RenderOptions, World};
-use kdray_scene::Camera;
+use kdray_render::World;
 use std::path::{Path, PathBuf};
 
 /// The deepest cells drawn over a render: 2^12 are more than can be told apart.
@@ -136,7 +136,9 @@ fn write_wireframe(
 ) -> Result<(), CliError> {
     let bounds = world.scene().tree().bounds();
     let camera = args.view.camera(world.model(), bounds)?;
-    let render = render(args, globals, world, &camera)?;
+    let (view, size, samples) = (&args.view, args.view.size, args.samples);
+    let backdrop = Backdrop { world, camera: &camera, view, size, samples };
+    let render = backdrop.render(&args.out, globals)?;
     let deepest = world.scene().tree().cells().map(|cell| cell.depth).max().unwrap_or(0);
     let depth = args.depth.unwrap_or(WIREFRAME_DEPTH).min(deepest);
     let title = format!(
@@ -156,33 +158,6 @@ fn write_wireframe(
     file.write(canvas, 1.0)?;
     progress::say(globals, &format!("drew the cells to depth {depth}: {}", args.out.display()));
     Ok(())
-}
-
-/// The scene as the camera sees it, as the bytes of a PNG.
-fn render(
-    args: &Args,
-    globals: &Globals,
-    world: &World,
-    camera: &Camera,
-) -> Result<Vec<u8>, CliError> {
-    let lights = args.view.lights(world.model(), world.scene().tree().bounds());
-    let (width, height) = (args.view.size.width, args.view.size.height);
-    let options =
-        RenderOptions { width, height, samples: args.samples, ..RenderOptions::default() };
-    let progress = Progress::start("rendering", (width * height) as u64, "pixels", globals);
-    let _watch = interrupt::watch();
-    let picture = kdray_render::render_with_progress(world, camera, &lights, &options, &|done| {
-        progress.set_fraction(done.fraction);
-        interrupt::flow()
-    })?;
-    if !picture.complete {
-        return Err(CliError::Interrupted);
-    }
-    let mut png = Vec::new();
-    picture
-        .write_png(&mut png, PngDepth::Eight)
-        .map_err(|error| CliError::picture(&args.out, error))?;
-    Ok(png)
 }
 
 fn nothing_to_draw(args: &Args) -> CliError {

@@ -1,6 +1,9 @@
-//! `kdray trace`: the steps of one ray.
+//! `kdray trace`: the steps of one ray, or of the packet of rays through a tile of pixels.
 
 mod table;
+mod tile;
+mod tile_json;
+mod tile_table;
 
 use crate::{
     args::{BuildArgs, SceneArgs, TableArgs, ViewArgs, numbers},
@@ -16,19 +19,26 @@ use kdray::{Ray, traverse::StepRecorder};
 use kdray_render::{RenderError, View, World};
 use std::path::PathBuf;
 
-/// Show the steps of one ray through the tree
+/// Show the steps of one ray through the tree, or of a packet of rays
 ///
 /// The ray looks for its closest hit. Each step is printed in the words of the traversal: the
 /// node, the axis of its plane, t_near and t_far, where the ray enters and leaves the node's box,
 /// t_split, where it meets the plane, which of the three cases that is, and what waits on the
 /// stack. With --out, the way of the ray is drawn in the plane that holds the ray and one axis.
+///
+/// With --tile, the rays through a tile of pixels go together, in up to eight sub-frusta: each node
+/// is decided upon once for all of them. --out draws the way of the frusta in a plane with the
+/// pixel's own ray, and --out-3d in space, from beside them.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Example: from (0, 0, 0) in the direction (0.4, 0.1, 1)
   kdray trace triangle.obj --ray 0,0,0,0.4,0.1,1
 
 Example: the ray through a pixel, as a table and as a picture
-  kdray trace bunny.ply --pixel 480,320 -o ray.svg")]
+  kdray trace bunny.ply --pixel 480,320 -o ray.svg
+
+Example: the packet of the 16 x 16 pixels around one, in a section and in space
+  kdray trace bunny.ply --tile 480,320 -o frustum.svg --out-3d frustum.png")]
 pub(crate) struct Args {
     #[command(flatten)]
     scene: SceneArgs,
@@ -37,6 +47,8 @@ pub(crate) struct Args {
     /// Also draw the way of the ray: a name that ends in .svg or .png
     #[arg(long, short, value_name = "OUT.svg|png")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    tile: TileArgs,
     #[command(flatten)]
     view: ViewArgs,
     #[command(flatten)]
@@ -54,10 +66,33 @@ struct WhichRay {
     /// The ray through the middle of this pixel of the picture, from 0,0 in the upper left corner
     #[arg(long, value_name = "X,Y", value_parser = pixel)]
     pixel: Option<(usize, usize)>,
+    /// The packet of rays through the tile of pixels that holds this one
+    #[arg(long, value_name = "X,Y", value_parser = pixel)]
+    tile: Option<(usize, usize)>,
+}
+
+/// What has a meaning for a tile only.
+#[derive(Debug, clap::Args)]
+struct TileArgs {
+    /// Pixels across and down of a tile, at most 16
+    #[arg(long, value_name = "N", default_value_t = 16, conflicts_with_all = ["ray", "pixel"], value_parser = clap::value_parser!(u8).range(1..=16))]
+    tile_size: u8,
+    /// Also draw the way of the frusta in space: a name that ends in .svg or .png
+    #[arg(long, value_name = "OUT.svg|png", conflicts_with_all = ["ray", "pixel"])]
+    out_3d: Option<PathBuf>,
+    /// From where the picture in space is seen; without it from beside the frusta
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, requires = "out_3d", value_parser = numbers::<3>)]
+    from: Option<[f64; 3]>,
+    /// Rays a pixel of the render in the picture in space
+    #[arg(long, value_name = "N", default_value_t = 4, requires = "out_3d", value_parser = clap::value_parser!(u32).range(1..))]
+    samples: u32,
 }
 
 /// Builds the tree and follows the ray.
 pub(crate) fn run(args: &Args, globals: &Globals) -> Result<(), CliError> {
+    if let Some(pixel) = args.which.tile {
+        return tile::run(args, pixel, globals);
+    }
     let file = args.out.as_deref().map(PictureFile::create).transpose()?;
     let model = load::model(&args.scene, globals)?;
     let world = build::world(model, &args.build.options(), globals)?;
@@ -94,25 +129,37 @@ fn ray(args: &Args, world: &World) -> Result<Ray, CliError> {
     let ray = match (args.which.ray, args.which.pixel) {
         (Some([ox, oy, oz, dx, dy, dz]), _) => Ray::new([ox, oy, oz], [dx, dy, dz]),
         (None, Some(pixel)) => pixel_ray(args, world, pixel)?,
-        (None, None) => return Err(CliError::Usage("give --ray or --pixel".to_owned())),
+        (None, None) => return Err(CliError::Usage("give --ray, --pixel or --tile".to_owned())),
     };
     ray.check().map_err(|error| CliError::Usage(error.to_string()))?;
     Ok(ray)
 }
 
-fn pixel_ray(args: &Args, world: &World, (x, y): (usize, usize)) -> Result<Ray, CliError> {
-    let (width, height) = (args.view.size.width, args.view.size.height);
-    if x >= width || y >= height {
-        return Err(CliError::Usage(format!(
-            "--pixel {x},{y}: the picture has the pixels 0,0 to {},{}; choose one of them, or \
-             another --size",
-            width - 1,
-            height - 1
-        )));
-    }
+fn pixel_ray(args: &Args, world: &World, pixel: (usize, usize)) -> Result<Ray, CliError> {
+    check_pixel("--pixel", args, pixel)?;
     let camera = args.view.camera(world.model(), world.scene().tree().bounds())?;
     let view = View::new(&camera, args.view.aspect()).map_err(RenderError::from)?;
-    Ok(view.ray((x as f64 + 0.5) / width as f64, (y as f64 + 0.5) / height as f64))
+    Ok(ray_through(&view, args, pixel))
+}
+
+/// The ray through the middle of a pixel.
+fn ray_through(view: &View, args: &Args, (x, y): (usize, usize)) -> Ray {
+    let (width, height) = (args.view.size.width as f64, args.view.size.height as f64);
+    view.ray((x as f64 + 0.5) / width, (y as f64 + 0.5) / height)
+}
+
+/// Refuses a pixel outside the picture, named by `option`.
+fn check_pixel(option: &str, args: &Args, (x, y): (usize, usize)) -> Result<(), CliError> {
+    let (width, height) = (args.view.size.width, args.view.size.height);
+    if x < width && y < height {
+        return Ok(());
+    }
+    Err(CliError::Usage(format!(
+        "{option} {x},{y}: the picture has the pixels 0,0 to {},{}; choose one of them, or \
+         another --size",
+        width - 1,
+        height - 1
+    )))
 }
 
 fn pixel(text: &str) -> Result<(usize, usize), String> {

@@ -6,8 +6,12 @@
 
 mod bars;
 mod canvas;
+mod cells;
 mod file;
+mod frustum_path;
+mod frustum_view;
 mod legend;
+mod over_render;
 mod palette;
 mod panel;
 mod projector;
@@ -23,6 +27,8 @@ use std::path::Path;
 pub(crate) use bars::{Bars, Series, draw_bars, three_digits};
 pub(crate) use canvas::Canvas;
 pub(crate) use file::PictureFile;
+pub(crate) use frustum_path::{FrustumPath, draw_frustum_path};
+pub(crate) use frustum_view::{FrustumView, draw_frustum_view};
 pub(crate) use ray_path::{RayPath, draw_ray_path};
 pub(crate) use section::Section;
 pub(crate) use slice::{Slice, draw_slice};

@@ -13,6 +13,12 @@ pub(crate) const VERMILION: &str = "#d55e00";
 /// A leaf that a ray visits.
 pub(crate) const VISITED: &str = "#fbd78f";
 
+/// A leaf in which a packet had nothing to test.
+pub(crate) const PASSED: &str = "#a5d3f0";
+
+/// What the bound of a packet left out in one decision.
+pub(crate) const LEFT_OUT: &str = "#e3eff8";
+
 /// The colours of the axes x, y and z, and so of the planes perpendicular to them.
 pub(crate) const AXES: [&str; 3] = [VERMILION, GREEN, BLUE];
 

@@ -20,6 +20,12 @@ impl Rect {
         Self { across: range(0), up: range(1) }
     }
 
+    /// The smallest one that holds both.
+    pub(crate) fn union(&self, other: &Self) -> Self {
+        let hull = |a: [f64; 2], b: [f64; 2]| [a[0].min(b[0]), a[1].max(b[1])];
+        Self { across: hull(self.across, other.across), up: hull(self.up, other.up) }
+    }
+
     /// Width and height.
     pub(crate) fn size(&self) -> [f64; 2] {
         [self.across[1] - self.across[0], self.up[1] - self.up[0]]

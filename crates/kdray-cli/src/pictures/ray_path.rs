@@ -9,11 +9,13 @@ use super::legend::{self, Entry};
 use super::panel::{Panel, Rect};
 use super::slice::{across_name, cut_triangles, frame};
 use super::{Section, palette, t_diagram};
-use kdray::{Hit, Ray, ShapeScene, traverse::Step};
+use kdray::{Hit, Ray, ShapeScene, traverse::Step, tree::Cell};
 use marks::marks_along_ray;
-use path::{Path, PathSplit};
+use path::Path;
 use svg::node::element::Group;
 use views::{View, views};
+
+pub(super) use views::{overview_rect, surroundings};
 
 /// What the picture shows.
 pub(crate) struct RayPath<'a> {
@@ -86,7 +88,7 @@ fn content(
     let context = triangles.iter().filter(near).map(place);
     group = group.add(lines(context, Stroke::new(palette::GREY, 0.9)));
     for split in &path.splits {
-        if let Some(ends) = split_ends(section, split) {
+        if let Some(ends) = split_ends(section, &split.cell, split.axis, split.split) {
             let width = (2.8 - 0.2 * f64::from(split.cell.depth)).max(1.0);
             let stroke = Stroke::new(palette::AXES[split.axis], width);
             group = group.add(lines([place(&ends)], stroke));
@@ -103,11 +105,16 @@ fn content(
 }
 
 /// The line in which the section cuts a splitting plane within its cell.
-fn split_ends(section: &Section, split: &PathSplit) -> Option<[[f64; 2]; 2]> {
-    let mut plane = split.cell.bounds;
-    (plane.min[split.axis], plane.max[split.axis]) = (split.split, split.split);
+pub(super) fn split_ends(
+    section: &Section,
+    cell: &Cell<3>,
+    axis: usize,
+    split: f32,
+) -> Option<[[f64; 2]; 2]> {
+    let mut plane = cell.bounds;
+    (plane.min[axis], plane.max[axis]) = (split, split);
     let Rect { across, up } = section.rect(&plane)?;
-    if split.axis == section.up() {
+    if axis == section.up() {
         Some([[across[0], up[0]], [across[1], up[0]]])
     } else if across[0] == across[1] {
         Some([[across[0], up[0]], [across[0], up[1]]])

@@ -132,7 +132,7 @@ impl Section {
     }
 
     /// How far `p` is from the plane, with a sign.
-    fn side(&self, p: [f64; 3]) -> f64 {
+    pub(crate) fn side(&self, p: [f64; 3]) -> f64 {
         let (j, k) = ((self.up + 1) % 3, (self.up + 2) % 3);
         (p[j] - self.origin[j]) * self.across[k] - (p[k] - self.origin[k]) * self.across[j]
     }

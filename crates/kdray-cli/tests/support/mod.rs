@@ -3,6 +3,7 @@
 
 pub(crate) mod hits;
 pub(crate) mod rays;
+pub(crate) mod seen;
 
 use assert_cmd::Command;
 use std::{

@@ -16,6 +16,9 @@ impl Interval {
     /// The whole line, before and behind the origin.
     pub const LINE: Self = Self { t_min: f64::NEG_INFINITY, t_max: f64::INFINITY };
 
+    /// The interval that holds nothing, from which [`union`](Self::union) grows.
+    pub const EMPTY: Self = Self { t_min: f64::INFINITY, t_max: f64::NEG_INFINITY };
+
     /// Whether `t` lies in the interval. Never true for NaN.
     pub fn contains(self, t: f64) -> bool {
         self.t_min <= t && t <= self.t_max
@@ -27,6 +30,12 @@ impl Interval {
             self.t_min.partial_cmp(&self.t_max),
             Some(std::cmp::Ordering::Less | std::cmp::Ordering::Equal)
         )
+    }
+
+    /// The smallest interval that holds both, neither of which is turned around.
+    #[must_use]
+    pub fn union(self, other: Self) -> Self {
+        Self { t_min: self.t_min.min(other.t_min), t_max: self.t_max.max(other.t_max) }
     }
 
     /// The part that lies in both intervals; empty if there is none.
@@ -52,5 +61,14 @@ mod tests {
         let behind = Interval { t_min: 2.0, t_max: 3.0 };
         assert!(before.intersection(behind).is_empty());
         assert!(Interval { t_min: f64::NAN, t_max: 1.0 }.is_empty());
+    }
+
+    #[test]
+    fn a_union_holds_what_is_between_too() {
+        let (first, last) =
+            (Interval { t_min: 0.0, t_max: 1.0 }, Interval { t_min: 2.0, t_max: 3.0 });
+        assert_eq!(first.union(last), Interval { t_min: 0.0, t_max: 3.0 });
+        assert_eq!(Interval::EMPTY.union(last), last);
+        assert!(Interval::EMPTY.is_empty());
     }
 }

@@ -3,7 +3,7 @@
 use crate::build::{BuildError, BuildOptions, BuildProgress};
 use crate::geometry::{Aabb, Ray};
 use crate::primitives::{Hit, HitRule, Intersect, TriangleMesh};
-use crate::traverse::{self, AllHits, Naive, Trace};
+use crate::traverse::{self, AllHits, Cull, Naive, PacketKind, Packets, Trace};
 use crate::tree::KdTree;
 use std::ops::ControlFlow;
 
@@ -133,5 +133,13 @@ impl<P: Intersect<K>, const K: usize> ShapeScene<P, K> {
     #[must_use]
     pub fn count(&self, ray: &Ray<K>) -> usize {
         self.all_hits(ray).count()
+    }
+}
+
+impl<P: Cull> ShapeScene<P, 3> {
+    /// The same closest and any hits for rays that are taken together, in packets that can be
+    /// watched.
+    pub fn packets(&self, kind: PacketKind) -> Packets<'_, P> {
+        Packets::new(&self.tree, &self.primitives, kind)
     }
 }

@@ -13,26 +13,49 @@ pub fn closest_hit<const K: usize>(
     ray: &Ray<K>,
     trace: &mut impl Trace,
 ) -> Option<Hit> {
-    let mut best: Option<Hit> = None;
     let mut walk = LeafWalk::new(tree, ray, trace);
-    let mut open = *ray;
-    while let Some(leaf) = walk.next_leaf(open.interval.t_max, trace) {
+    let mut nearest = Nearest::new(ray);
+    while let Some(leaf) = walk.next_leaf(nearest.ray.interval.t_max, trace) {
         for &id in leaf.primitives {
-            let mut t = None;
-            primitives.intersect(id, &open, HitRule::Touching, &mut |hit| {
-                if t.is_none_or(|t| hit.t < t) {
-                    t = Some(hit.t);
-                }
-                if best.is_none_or(|best| hit.precedes(&best)) {
-                    best = Some(hit);
-                }
-            });
+            let t = nearest.test(primitives, id);
             trace.primitive(id, t);
-            // Hits at the same t still count: a smaller id wins.
-            open.interval.t_max = best.map_or(open.interval.t_max, |best| best.t);
         }
     }
-    best
+    nearest.hit
+}
+
+/// A ray on its way to its first hit.
+#[derive(Clone, Debug)]
+pub(super) struct Nearest<const K: usize> {
+    /// The ray up to what was found.
+    pub(super) ray: Ray<K>,
+    /// What was found.
+    pub(super) hit: Option<Hit>,
+}
+
+impl<const K: usize> Nearest<K> {
+    #[inline]
+    pub(super) fn new(ray: &Ray<K>) -> Self {
+        Self { ray: *ray, hit: None }
+    }
+
+    /// Tests one primitive; the least t of its hits, if any.
+    #[inline]
+    pub(super) fn test(&mut self, primitives: &impl Intersect<K>, id: u32) -> Option<f64> {
+        let Self { ray, hit: best } = self;
+        let mut t = None;
+        primitives.intersect(id, ray, HitRule::Touching, &mut |hit| {
+            if t.is_none_or(|t| hit.t < t) {
+                t = Some(hit.t);
+            }
+            if best.is_none_or(|best| hit.precedes(&best)) {
+                *best = Some(hit);
+            }
+        });
+        // Hits at the same t still count: a smaller id wins.
+        ray.interval.t_max = best.map_or(ray.interval.t_max, |best| best.t);
+        t
+    }
 }
 
 /// Some hit on `ray`, not necessarily the first, but the same one on every run.

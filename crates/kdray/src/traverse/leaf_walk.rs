@@ -140,7 +140,7 @@ impl<'a, const K: usize> LeafWalk<'a, K> {
 
 /// 1 / d, infinite with the sign of d for both zeros. NaN, which makes every split of the axis
 /// undecided, for a d so small that its inverse overflows.
-fn inverse(d: f64) -> f64 {
+pub(super) fn inverse(d: f64) -> f64 {
     let inverse = 1.0 / d;
     if inverse.is_infinite() && d != 0.0 { f64::NAN } else { inverse }
 }

@@ -9,6 +9,7 @@ mod all_hits;
 mod closest;
 mod leaf_walk;
 mod naive;
+mod packet;
 mod trace;
 pub(crate) mod wide;
 
@@ -16,4 +17,8 @@ pub use all_hits::AllHits;
 pub use closest::{any_hit, closest_hit};
 pub use leaf_walk::{LeafVisit, LeafWalk};
 pub use naive::Naive;
+pub use packet::{
+    Cull, Frustum, LaneMask, PacketCounters, PacketDecision, PacketKind, PacketLeafStep,
+    PacketRecorder, PacketSplitStep, PacketStep, PacketTrace, Packets,
+};
 pub use trace::{Counters, LeafStep, SplitStep, Step, StepRecorder, Trace, TraversalCase};

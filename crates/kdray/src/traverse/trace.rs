@@ -1,6 +1,7 @@
 //! Watching a traversal: counts for heat maps, steps for lectures.
 
 use crate::geometry::Interval;
+use std::iter::Sum;
 
 /// The lecture's cases of S11: how t_split lies to the node's interval.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -114,6 +115,16 @@ impl Counters {
     /// Inner nodes and leaves visited.
     pub fn nodes(&self) -> u64 {
         self.splits + self.leaves
+    }
+}
+
+impl Sum for Counters {
+    fn sum<I: Iterator<Item = Self>>(all: I) -> Self {
+        all.fold(Self::default(), |sum, next| Self {
+            splits: sum.splits + next.splits,
+            leaves: sum.leaves + next.leaves,
+            primitives: sum.primitives + next.primitives,
+        })
     }
 }
 

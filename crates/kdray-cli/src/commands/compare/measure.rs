@@ -141,11 +141,7 @@ fn by_tree(scene: &ShapeScene, set: &RaySet) -> Figures {
         (answer, counters)
     };
     let found: Vec<(Answer, Counters)> = set.rays.par_iter().map(ask).collect();
-    let counters = found.iter().fold(Counters::default(), |sum, (_, c)| Counters {
-        splits: sum.splits + c.splits,
-        leaves: sum.leaves + c.leaves,
-        primitives: sum.primitives + c.primitives,
-    });
+    let counters = found.iter().map(|(_, counters)| *counters).sum();
     let answers: Vec<Answer> = found.into_iter().map(|(answer, _)| answer).collect();
     Figures { set: set.name, rays: answers.len(), stride: 1, counters, seconds: 0.0, answers }
 }

@@ -58,7 +58,7 @@ impl RaySets {
 }
 
 /// About `count` pixels of a picture `aspect` times as wide as high.
-fn grid(count: u32, aspect: f64) -> [usize; 2] {
+pub(super) fn grid(count: u32, aspect: f64) -> [usize; 2] {
     let count = f64::from(count);
     let width = (count * aspect).sqrt().round().clamp(1.0, count);
     [width as usize, (count / width).round().max(1.0) as usize]

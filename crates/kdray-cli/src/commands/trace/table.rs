@@ -10,7 +10,7 @@ use kdray::{
 };
 use serde_json::{Value, json};
 
-const AXES: [&str; 3] = ["x", "y", "z"];
+pub(super) const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// The case in the lecture's words, and what is done.
 fn case_words(step: &SplitStep) -> &'static str {

@@ -1,13 +1,14 @@
 //! The steps of a ray, sorted by what they say about cells.
 
+use super::super::cells::cells_on_the_way;
 use super::super::t_diagram::{Bar, Fate};
 use super::super::{counted, readable};
-use kdray::tree::{Cell, NodeKind};
+use kdray::tree::Cell;
 use kdray::{
     Hit, ShapeScene,
     traverse::{Step, TraversalCase},
 };
-use std::collections::{HashMap, HashSet};
+use std::collections::HashSet;
 
 /// The steps sorted by what they say about cells.
 pub(super) struct Path {
@@ -27,7 +28,11 @@ pub(super) struct PathSplit {
 
 impl Path {
     pub(super) fn new(scene: &ShapeScene, steps: &[Step]) -> Self {
-        let cells = cells_of(scene, steps);
+        let visited = steps.iter().filter_map(|step| match step {
+            Step::Split(step) => Some(step.node),
+            _ => None,
+        });
+        let cells = cells_on_the_way(scene.tree(), visited);
         let mut path = Self {
             splits: Vec::new(),
             visited: Vec::new(),
@@ -90,23 +95,4 @@ impl Path {
             counted(self.tested.len(), "triangle", "triangles"),
         )
     }
-}
-
-/// The cells of the nodes that the steps name, and of their children.
-fn cells_of(scene: &ShapeScene, steps: &[Step]) -> HashMap<u32, Cell<3>> {
-    let tree = scene.tree();
-    let mut cells = HashMap::new();
-    cells.insert(0, Cell { node: 0, depth: 0, bounds: *tree.bounds() });
-    for step in steps {
-        let Step::Split(step) = step else { continue };
-        let Some(cell) = cells.get(&step.node).copied() else { continue };
-        if let NodeKind::Inner { axis, split, above } = tree.nodes()[step.node as usize].kind() {
-            let (below_bounds, above_bounds) = cell.bounds.split(axis, split);
-            let depth = cell.depth + 1;
-            let below = step.node + 1;
-            cells.insert(below, Cell { node: below, depth, bounds: below_bounds });
-            cells.insert(above, Cell { node: above, depth, bounds: above_bounds });
-        }
-    }
-    cells
 }

@@ -52,7 +52,12 @@ pub(super) fn views(
 
 /// The root's box, and a little of the ray before and behind it; of a box that is much larger than
 /// the ray's way through it, the part around that.
-fn overview_rect(section: &Section, ray: &Ray, t: [f64; 2], root: Rect) -> Rect {
+pub(in crate::pictures) fn overview_rect(
+    section: &Section,
+    ray: &Ray,
+    t: [f64; 2],
+    root: Rect,
+) -> Rect {
     let way = Rect::around(&t.map(|t| section.place(ray.at(t))));
     let around_way = way.grown(0.35 * way.size()[0].max(way.size()[1]));
     let crop = |whole: [f64; 2], part: [f64; 2]| {
@@ -79,11 +84,15 @@ fn overview_rect(section: &Section, ray: &Ray, t: [f64; 2], root: Rect) -> Rect 
 /// The leaf in which the search ends, and what is around it.
 fn detail_rect(section: &Section, path: &Path) -> Option<Rect> {
     let (cell, _) = path.visited.last()?;
-    let rect = section.rect(&cell.bounds)?;
+    section.rect(&cell.bounds).map(|rect| surroundings(&rect))
+}
+
+/// What is around a cell, so that it can be seen well.
+pub(in crate::pictures) fn surroundings(rect: &Rect) -> Rect {
     let [width, height] = rect.size();
     // A leaf may be long and thin: no more than ten times its thickness is around it.
     let reach = 1.2 * width.max(height).min(10.0 * width.min(height)).max(0.1 * width.max(height));
-    Some(square(&rect.grown(reach)))
+    square(&rect.grown(reach))
 }
 
 /// The smallest square around a rectangle.
