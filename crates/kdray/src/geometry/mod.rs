@@ -8,7 +8,9 @@ mod clip;
 mod interval;
 mod plane;
 mod ray;
+mod ray_packet;
 mod slack;
+mod tile_order;
 
 pub use aabb::Aabb;
 pub use bounding_sphere::BoundingSphere;
@@ -18,4 +20,6 @@ pub use clip::{clipped_bounds, split_bounds};
 pub use interval::Interval;
 pub use plane::Plane;
 pub use ray::{Ray, RayError};
+pub use ray_packet::{Common, RayPacket};
 pub(crate) use slack::{t_above, t_below, widened};
+pub use tile_order::{TILE, tile_order};

@@ -2,12 +2,14 @@
 
 mod ball;
 mod hit;
+mod hit_arrays;
 mod mesh;
 mod segments;
 mod triangle;
 
 pub use ball::{BallError, Balls};
 pub use hit::{Hit, HitRule, Side};
+pub use hit_arrays::HitArrays;
 pub use mesh::{MeshError, TriangleMesh};
 pub use segments::{SegmentError, Segments};
 pub use triangle::intersect_triangle;

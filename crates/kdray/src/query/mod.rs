@@ -3,9 +3,11 @@
 mod arithmetic;
 mod batch;
 mod near;
+mod packet;
 mod scene;
 mod shape_scene;
 
+pub use crate::traverse::wide::packet::PacketWork;
 pub use arithmetic::Arithmetic;
 pub use scene::Scene;
 pub use shape_scene::ShapeScene;

@@ -5,6 +5,9 @@ use fearless_simd::{Fallback, f32x8, mask32x8, u32x8};
 
 /// An instruction set that moves lanes about.
 pub(crate) trait Lanes: Simd {
+    /// Whether vectors are what the processor has, not arrays of numbers.
+    const HAS_VECTORS: bool;
+
     /// Packs the lanes of `t` and `links` where `chosen` is set, in the order of `places`: eight
     /// lane numbers of four bits, the first lowest. Which of the places were chosen, a bit each;
     /// lanes behind as many hold anything.
@@ -20,8 +23,10 @@ pub(crate) struct Lists<S: Simd> {
 
 /// One lane at a time, where no instruction does it at once.
 macro_rules! pack_lane_by_lane {
-    ($set:ty) => {
+    ($set:ty, $has_vectors:literal) => {
         impl Lanes for $set {
+            const HAS_VECTORS: bool = $has_vectors;
+
             #[inline(always)]
             fn pack(
                 self,
@@ -48,10 +53,10 @@ macro_rules! pack_lane_by_lane {
     };
 }
 
-pack_lane_by_lane!(Fallback);
+pack_lane_by_lane!(Fallback, false);
 
 #[cfg(target_arch = "aarch64")]
-pack_lane_by_lane!(fearless_simd::aarch64::Neon);
+pack_lane_by_lane!(fearless_simd::aarch64::Neon, true);
 
 /// By `vpermd` of AVX2, which permutes eight lanes at once: two times into the order, and with a
 /// table of which lanes to take for each of the 256 masks.
@@ -109,6 +114,8 @@ mod x86 {
             );
 
             impl Lanes for $set {
+                const HAS_VECTORS: bool = true;
+
                 #[inline(always)]
                 fn pack(
                     self,

@@ -14,6 +14,7 @@ mod closest;
 mod float;
 mod line;
 mod located;
+pub(crate) mod packet;
 mod search;
 mod single;
 mod slab;

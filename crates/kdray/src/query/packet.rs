@@ -1,0 +1,56 @@
+//! Rays that share an origin, a direction or a target (S12).
+
+use super::Scene;
+use crate::geometry::RayPacket;
+use crate::primitives::{Hit, HitArrays};
+use crate::traverse::wide::packet::{Answers, PacketWork, Packets, Scratch};
+
+impl Scene {
+    /// [`closest_hit`](Self::closest_hit) of each ray of a packet, on this thread: `hits.get(i)` is that
+    /// of `packet.ray(i)`, to the last bit. What it took comes back.
+    ///
+    /// Rays are taken in their order, 64 or 512 at a time, and bounded by a frustum, which is
+    /// considered first: so they should lie next to each other, tile by tile. Where that does not pay,
+    /// and for rays to a target, they are traced like those of [`closest_hits`](Self::closest_hits).
+    pub fn packet_closest_hits(&self, packet: &RayPacket<'_>, hits: &mut HitArrays) -> PacketWork {
+        hits.resize(packet.len());
+        let mut left = Vec::new();
+        let answers = Answers::Closest(hits);
+        let work = self.in_packets::<false>(packet, answers, &mut left);
+        let rays = left.iter().map(|&index| packet.ray(index as usize));
+        self.each_closest_hit(rays, |place, hit: Option<Hit>| hits.set(left[place] as usize, hit));
+        work
+    }
+
+    /// [`any_hit`](Self::any_hit) of each ray of a packet, on this thread: `found[i]` is that of
+    /// `packet.ray(i)`. What it took comes back. See [`packet_closest_hits`](Self::packet_closest_hits).
+    ///
+    /// # Panics
+    /// If there are not as many answers as rays.
+    pub fn packet_any_hits(&self, packet: &RayPacket<'_>, found: &mut [bool]) -> PacketWork {
+        assert_eq!(packet.len(), found.len(), "as many answers as rays");
+        let mut left = Vec::new();
+        let answers = Answers::Any(found);
+        let work = self.in_packets::<true>(packet, answers, &mut left);
+        let rays = left.iter().map(|&index| packet.ray(index as usize));
+        self.each_any_hit(rays, |place, is_hit| found[left[place] as usize] = is_hit);
+        work
+    }
+
+    /// Answers the rays that packets pay for; the others are `left`.
+    fn in_packets<const ANY: bool>(
+        &self,
+        packet: &RayPacket<'_>,
+        answers: Answers<'_>,
+        left: &mut Vec<u32>,
+    ) -> PacketWork {
+        let Some(tree) = self.wide_tree() else {
+            left.extend(0..packet.len() as u32);
+            return PacketWork { left: packet.len(), ..PacketWork::default() };
+        };
+        Scratch::of_thread(|scratch| {
+            let kernel = Packets::<ANY> { tree, packet, answers, left, scratch };
+            self.instructions.run(kernel)
+        })
+    }
+}
