@@ -87,7 +87,9 @@ pub fn intersect_triangle(
         values_exactly(corners, ray)
     };
     let side = if front { Side::Front } else { Side::Back };
-    let hit = Hit { t, primitive_id: id, u, v: v.min(1.0 - u), side };
+    // Plus zero, as -0 becomes 0 by that: of zeros of either sign min and max may give either.
+    let (u, v) = (u + 0.0, v.min(1.0 - u) + 0.0);
+    let hit = Hit { t, primitive_id: id, u, v, side };
     (t.is_finite() && ray.interval.contains(t)).then_some(hit)
 }
 
