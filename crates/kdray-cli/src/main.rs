@@ -15,7 +15,6 @@ mod pictures;
 mod progress;
 mod query;
 mod table;
-mod tiles;
 
 use std::process::ExitCode;
 

@@ -9,10 +9,10 @@ use crate::{
     pictures::scene_name,
     progress::Progress,
     table::{columns, print_json},
-    tiles,
 };
 use kdray::{
     Hit, Ray, ShapeScene, Strategy,
+    geometry::{TILE, tile_order},
     traverse::{Counters, PacketCounters, PacketKind},
 };
 use kdray_render::{RenderError, View};
@@ -24,7 +24,7 @@ use serde::Serialize;
 struct Report {
     triangles: usize,
     /// How many pixels across and down the primary rays go through.
-    primary_grid: [usize; 2],
+    primary_grid: [u32; 2],
     /// Always true: if answers differ there is no report.
     answers_identical: bool,
     contenders: Vec<Entry>,
@@ -64,17 +64,14 @@ pub(super) fn run(args: &Args, globals: &Globals) -> Result<(), CliError> {
 }
 
 /// The nearest number of pixels that tiles fill.
-fn whole_tiles(pixels: usize) -> usize {
-    ((pixels + tiles::TILE / 2) / tiles::TILE).max(1) * tiles::TILE
+fn whole_tiles(pixels: usize) -> u32 {
+    ((pixels as u32 + TILE / 2) / TILE).max(1) * TILE
 }
 
 /// Rays through the pixels of a picture, tile by tile.
-fn in_tiles(view: &View, [width, height]: [usize; 2]) -> Vec<Ray> {
-    let corners = (0..height)
-        .step_by(tiles::TILE)
-        .flat_map(|y| (0..width).step_by(tiles::TILE).map(move |x| [x, y]));
-    let pixels = corners.flat_map(|[x, y]| tiles::pixels().map(move |[i, j]| [x + i, y + j]));
-    let middle = |i: usize, count: usize| (i as f64 + 0.5) / count as f64;
+fn in_tiles(view: &View, [width, height]: [u32; 2]) -> Vec<Ray> {
+    let middle = |i: u32, count: u32| (f64::from(i) + 0.5) / f64::from(count);
+    let pixels = tile_order(width, height);
     pixels.map(|[x, y]| view.ray(middle(x, width), middle(y, height))).collect()
 }
 
@@ -121,7 +118,7 @@ fn in_packets(
         let mut counters = PacketCounters::default();
         (packets.closest_hits(tile, &mut counters), counters)
     };
-    let tiles = rays.par_chunks(tiles::TILE * tiles::TILE);
+    let tiles = rays.par_chunks((TILE * TILE) as usize);
     let (hits, counters): (Vec<_>, Vec<_>) = tiles.map(ask).unzip();
     (hits.concat(), counters.into_iter().sum())
 }

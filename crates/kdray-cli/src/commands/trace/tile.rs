@@ -13,11 +13,11 @@ use crate::{
     },
     progress,
     table::print_json,
-    tiles,
 };
 use glam::DVec3;
 use kdray::{
     Hit, Ray, ShapeScene,
+    geometry::tile_order,
     traverse::{Counters, PacketCounters, PacketKind, PacketRecorder, PacketStep},
 };
 use kdray_render::{RenderError, View};
@@ -160,7 +160,8 @@ impl Tile {
 
     /// Rays through the middles of all pixels, neighbours together.
     fn rays(&self, view: &View, args: &Args) -> Vec<Ray> {
-        let pixels = tiles::pixels().filter(|pixel| (0..2).all(|k| pixel[k] < self.size[k]));
+        let [width, height] = self.size.map(|pixels| pixels as u32);
+        let pixels = tile_order(width, height).map(|pixel| pixel.map(|i| i as usize));
         let pixels = pixels.map(|[x, y]| (self.at[0] + x, self.at[1] + y));
         pixels.map(|pixel| super::ray_through(view, args, pixel)).collect()
     }
