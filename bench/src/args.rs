@@ -6,7 +6,7 @@ use std::path::PathBuf;
 /// kdray beside Embree and others, on the same rays in the same run.
 ///
 /// Without arguments: seven scenes if a folder ../shared/scenes is beside the checkout, otherwise
-/// scenes made by code; four sets of rays, all contenders, one thread. Rates are by the process's
+/// scenes made by code; five sets of rays, all contenders, one thread. Rates are by the process's
 /// CPU time. See bench/README.md.
 #[derive(Debug, Parser)]
 #[command(name = "cargo xtask bench", bin_name = "cargo xtask bench")]
@@ -33,10 +33,11 @@ pub(crate) struct Compare {
     /// terrain-2m, terrain-10m (any terrain-N), hall, hair
     #[arg(long, value_delimiter = ',', value_name = "SCENE")]
     pub(crate) scenes: Vec<String>,
-    /// Sets of rays, separated by commas: primary, diffuse, shadow, ao
+    /// Sets of rays, separated by commas: primary, diffuse, shadow, ao, ao-shared
     #[arg(long, value_delimiter = ',', value_name = "SET")]
     pub(crate) sets: Vec<String>,
-    /// Only contenders whose names contain one of these, and the one that ratios are to
+    /// Only contenders whose names contain one of these, and the one that ratios are to; `embree best
+    /// packet` is the best of Embree's single rays and packets, which then all run
     #[arg(long, value_delimiter = ',', value_name = "TEXT")]
     pub(crate) contenders: Vec<String>,
     /// Three scenes, 512 x 512 rays, three rounds, smaller samples

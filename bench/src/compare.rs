@@ -7,6 +7,7 @@ use crate::embree::Embree;
 use crate::error::BenchError;
 use crate::machine::{Machine, work_folder};
 use crate::measure::{self, Ready, Terms, spoken};
+use crate::packets;
 use crate::rays::{RaySets, SetKind};
 use crate::reference::Reference;
 use crate::report::{BuildRow, Outputs, Report, say};
@@ -118,7 +119,11 @@ impl Run<'_> {
         let ready = self.build_all(scene, &mut report.builds)?;
         for (kind, truth) in &truths {
             let start = Instant::now();
-            report.rays.extend(measure::trace(&ready, scene, &rays, (*kind, truth), self.terms()));
+            let traced = measure::trace(&ready, scene, &rays, (*kind, truth), self.terms());
+            let names = &self.options.contenders;
+            let best = packets::best_row(&traced, *kind, names);
+            report.packets.extend(packets::packet_row(&traced, *kind, names));
+            report.rays.extend(traced.into_iter().map(|it| it.row).chain(best));
             let count = rays.set(*kind).rays.len();
             say(&format!("  {}: {count} rays, {}", kind.name(), spoken(start.elapsed())));
         }

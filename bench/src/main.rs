@@ -14,6 +14,7 @@ mod error;
 mod machine;
 mod measure;
 mod memory;
+mod packets;
 mod rays;
 mod reference;
 mod report;

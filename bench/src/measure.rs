@@ -120,6 +120,13 @@ struct Lane<'a> {
     took: Vec<Took>,
 }
 
+/// How a kernel did on one set of rays.
+pub(crate) struct Traced {
+    pub(crate) row: RayRow,
+    /// Rays a second in each round, by processor time.
+    pub(crate) rates: Vec<f64>,
+}
+
 /// Measures all kernels that were asked for on one set of rays.
 pub(crate) fn trace(
     ready: &[Ready<'_>],
@@ -127,7 +134,7 @@ pub(crate) fn trace(
     rays: &RaySets,
     (kind, truth): (SetKind, &Truth),
     terms: Terms<'_>,
-) -> Vec<RayRow> {
+) -> Vec<Traced> {
     let (set, primary) = (rays.set(kind), rays.set(SetKind::Primary));
     if set.rays.is_empty() {
         return Vec::new();
@@ -149,7 +156,7 @@ pub(crate) fn trace(
     let baseline = baseline.map(|index| lanes[index].rates());
     let row = |lane: &Lane<'_>| {
         let wrong = lane.check(set, truth, scene.diagonal);
-        lane.row(scene, kind, baseline.as_deref(), wrong)
+        Traced { row: lane.row(scene, kind, baseline.as_deref(), wrong), rates: lane.rates() }
     };
     lanes.iter().map(row).collect()
 }
@@ -217,6 +224,7 @@ impl<'a> Lane<'a> {
             scene: scene.name.clone(),
             set: kind.name().to_owned(),
             contender: self.name.clone(),
+            best: None,
             rays: self.rays,
             mrays_wall: self.rays as f64
                 / median(self.took.iter().map(|it| it.wall).collect())

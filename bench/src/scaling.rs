@@ -108,7 +108,8 @@ fn terrain(
     }
     for (kind, truth) in &truths {
         let terms = Terms { names, rounds, longest_trace: LONGEST_TRACE };
-        figures.rays.extend(measure::trace(&ready, scene, &rays, (*kind, truth), terms));
+        let traced = measure::trace(&ready, scene, &rays, (*kind, truth), terms);
+        figures.rays.extend(traced.into_iter().map(|it| it.row));
     }
     say(&format!("{}: {}", scene.name, spoken(start.elapsed())));
     Ok(())

@@ -2,15 +2,18 @@
 
 use crate::contender::{Answers, Built, Contender, Found, Job, Trace, TreeBytes, one_by_one};
 use crate::error::BenchError;
-use crate::rays::Question;
+use crate::rays::{Question, RaySet, SetKind};
 use crate::reference::exact_ray;
 use crate::workers::Workers;
 use kdray::build::Preset;
+use kdray::geometry::Common;
 use kdray::layout::WideTree;
+use kdray::primitives::HitArrays;
 use kdray::{
-    Arithmetic, BuildOptions, CostModel, Hint, Hit, KdTree, Ray, Scene, ShapeScene, Strategy,
-    TriangleMesh,
+    Arithmetic, BuildOptions, CostModel, Hint, Hit, KdTree, Ray, RayPacket, Scene, ShapeScene,
+    Strategy, TriangleMesh,
 };
+use std::ops::Range;
 
 /// All of kdray's structures.
 pub(super) fn all() -> Vec<Box<dyn Contender>> {
@@ -36,6 +39,7 @@ impl Contender for Kdray {
     fn kernels(&self) -> &'static [&'static str] {
         match self.preset {
             Preset::Balanced => &[
+                "packets",
                 "single",
                 "batch",
                 "hint",
@@ -76,6 +80,9 @@ impl Built for BuiltKdray {
             Some(kernel) => (kernel, scene.with_arithmetic(Arithmetic::Float)),
             None => (kernel, scene),
         };
+        if kernel == "packets" {
+            return InPackets::new(scene, job.set).map(|trace| Box::new(trace) as Box<_>);
+        }
         if kernel == "batch" {
             let rays = job.set.rays.iter().map(exact_ray).collect();
             return Some(Box::new(InBatches { scene, rays }));
@@ -103,6 +110,77 @@ impl Trace for InBatches {
                 self.scene.each_closest_hit(&self.rays, |index, hit| answers[index] = found(hit));
             }
             Answers::Any(answers) => self.scene.any_hits(&self.rays, answers),
+        }
+    }
+}
+
+/// Rays that are traced in packets.
+struct InPackets {
+    scene: Scene,
+    /// What rays share: all, or each run of them.
+    runs: Vec<(Common, Range<usize>)>,
+    /// In what they differ.
+    each: [Vec<f64>; 3],
+    t_max: f64,
+    hits: HitArrays,
+}
+
+/// Packets are handed over so many rays at a time, that their hits stay in the cache.
+const RAYS_AT_ONCE: usize = 16384;
+
+impl InPackets {
+    /// `None` for rays that share nothing.
+    fn new(scene: Scene, set: &RaySet) -> Option<Self> {
+        let rays = &set.rays;
+        let first = rays.first()?;
+        let exactly = |v: [f32; 3]| v.map(f64::from);
+        let whole = |common| vec![(common, 0..rays.len())];
+        let (runs, differ): (_, fn(&crate::rays::Ray) -> [f32; 3]) = match set.kind {
+            SetKind::Primary => (whole(Common::Origin(exactly(first.origin))), |it| it.direction),
+            SetKind::Shadow => {
+                let (o, d) = (exactly(first.origin), exactly(first.direction));
+                let target = std::array::from_fn(|axis| o[axis] + d[axis]);
+                (whole(Common::Target(target)), |it| it.origin)
+            }
+            SetKind::AoShared => {
+                let mut runs = Vec::new();
+                let mut begin = 0;
+                for run in rays.chunk_by(|a, b| a.direction == b.direction) {
+                    let common = Common::Direction(exactly(run[0].direction));
+                    runs.push((common, begin..begin + run.len()));
+                    begin += run.len();
+                }
+                (runs, |it| it.origin)
+            }
+            SetKind::Diffuse | SetKind::Ao => return None,
+        };
+        let column = |axis: usize| rays.iter().map(|ray| f64::from(differ(ray)[axis])).collect();
+        let each = [column(0), column(1), column(2)];
+        Some(Self { scene, runs, each, t_max: f64::from(first.t_max), hits: HitArrays::default() })
+    }
+}
+
+impl Trace for InPackets {
+    fn trace(&mut self, answers: &mut Answers) {
+        let Self { scene, runs, each: [x, y, z], t_max, hits } = self;
+        for (common, run) in runs {
+            for begin in run.clone().step_by(RAYS_AT_ONCE) {
+                let part = begin..(begin + RAYS_AT_ONCE).min(run.end);
+                let each = [&x[part.clone()], &y[part.clone()], &z[part.clone()]];
+                let packet = RayPacket::new(*common, each).with_interval(0.0, *t_max);
+                match answers {
+                    Answers::Any(answers) => {
+                        scene.packet_any_hits(&packet, &mut answers[part]);
+                    }
+                    Answers::Closest(answers) => {
+                        scene.packet_closest_hits(&packet, hits);
+                        let numbers = hits.t().iter().zip(hits.primitive_id());
+                        for (answer, (&t, &id)) in answers[part].iter_mut().zip(numbers) {
+                            *answer = Found { t: t as f32, id };
+                        }
+                    }
+                }
+            }
         }
     }
 }

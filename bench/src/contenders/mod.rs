@@ -10,6 +10,7 @@ mod triangle;
 
 use crate::contender::{Contender, full_name};
 use crate::embree::Embree;
+use crate::packets;
 
 /// What ratios are to.
 pub(crate) const BASELINE: &str = "embree medium single";
@@ -29,10 +30,12 @@ pub(crate) fn all(embree: Option<&Embree>) -> Vec<Box<dyn Contender>> {
     list
 }
 
-/// Whether a kernel was asked for: by a part of its name, or because ratios are to it.
+/// Whether a kernel was asked for: by a part of its name, or because ratios are to it, or because it may
+/// be the best of Embree, which was asked for.
 pub(crate) fn wanted(contender: &dyn Contender, kernel: &str, names: &[String]) -> bool {
     let name = full_name(contender, kernel);
-    names.is_empty() || name == BASELINE || names.iter().any(|part| name.contains(part.as_str()))
+    let is_named = names.is_empty() || names.iter().any(|part| name.contains(part.as_str()));
+    is_named || name == BASELINE || packets::is_needed(&name, names)
 }
 
 #[cfg(test)]

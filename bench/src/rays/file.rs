@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 use twox_hash::XxHash64;
 
 /// The format; the last digit is its version, to be raised whenever rays are made differently.
-const MAGIC: [u8; 8] = *b"kdrays 1";
+const MAGIC: [u8; 8] = *b"kdrays 2";
 
 /// What rays are made from.
 pub(super) struct Key {
@@ -102,8 +102,8 @@ fn decode(key: &Key, bytes: &[u8]) -> Option<RaySets> {
         let parents: Option<Vec<u32>> = (0..parents).map(|_| rest.u32()).collect();
         Some(RaySet { kind, rays: rays?, parents: parents? })
     };
-    let [a, b, c, d] = SetKind::ALL.map(|kind| set(&mut rest, kind));
-    let sets = [a?, b?, c?, d?];
+    let [a, b, c, d, e] = SetKind::ALL.map(|kind| set(&mut rest, kind));
+    let sets = [a?, b?, c?, d?, e?];
     rest.0.is_empty().then_some(RaySets { resolution: key.resolution, sets })
 }
 

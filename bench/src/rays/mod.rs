@@ -1,6 +1,7 @@
-//! The rays that all contenders trace: four sets, the same f32 numbers for everyone.
+//! The rays that all contenders trace: five sets, the same f32 numbers for everyone.
 
 mod ao;
+mod ao_shared;
 mod diffuse;
 mod file;
 mod primary;
@@ -35,7 +36,7 @@ pub(crate) enum Question {
     Any,
 }
 
-/// The four sets.
+/// The sets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum SetKind {
     /// Through the pixels of a picture.
@@ -46,11 +47,14 @@ pub(crate) enum SetKind {
     Shadow,
     /// Like diffuse rays, but only a tenth of the scene's diagonal long.
     Ao,
+    /// As long, but all rays of a tile of pixels go in the same direction.
+    AoShared,
 }
 
 impl SetKind {
     /// All of them, in the order in which they are told.
-    pub(crate) const ALL: [Self; 4] = [Self::Primary, Self::Diffuse, Self::Shadow, Self::Ao];
+    pub(crate) const ALL: [Self; 5] =
+        [Self::Primary, Self::Diffuse, Self::Shadow, Self::Ao, Self::AoShared];
 
     /// The name that it has on the command line and in tables.
     pub(crate) fn name(self) -> &'static str {
@@ -59,6 +63,7 @@ impl SetKind {
             Self::Diffuse => "diffuse",
             Self::Shadow => "shadow",
             Self::Ao => "ao",
+            Self::AoShared => "ao-shared",
         }
     }
 
@@ -66,7 +71,7 @@ impl SetKind {
     pub(crate) fn question(self) -> Question {
         match self {
             Self::Primary | Self::Diffuse => Question::Closest,
-            Self::Shadow | Self::Ao => Question::Any,
+            Self::Shadow | Self::Ao | Self::AoShared => Question::Any,
         }
     }
 
@@ -77,7 +82,8 @@ impl SetKind {
         }
         let named = |name: &String| {
             let found = Self::ALL.into_iter().find(|kind| kind.name() == name);
-            let none = || format!("no set is called {name}; give primary, diffuse, shadow or ao");
+            let names = Self::ALL.map(Self::name).join(", ");
+            let none = || format!("no set is called {name}; give some of {names}");
             found.ok_or_else(|| BenchError::Usage(none()))
         };
         names.iter().map(named).collect()
@@ -89,7 +95,7 @@ impl SetKind {
 pub(crate) struct RaySet {
     /// Which one.
     pub(crate) kind: SetKind,
-    /// The rays, in the order of the pixels: see [`primary::pixel`].
+    /// The rays, in the order of the pixels: see [`tile_order`](kdray::geometry::tile_order).
     pub(crate) rays: Vec<Ray>,
     /// For each ray the index of the primary ray from whose hit it starts; empty for primary rays.
     pub(crate) parents: Vec<u32>,
@@ -101,7 +107,7 @@ pub(crate) struct RaySets {
     /// Pixels across and down.
     pub(crate) resolution: u32,
     /// The sets, in the order of [`SetKind::ALL`].
-    pub(crate) sets: [RaySet; 4],
+    pub(crate) sets: [RaySet; 5],
 }
 
 impl RaySets {
@@ -115,11 +121,13 @@ impl RaySets {
         let primary = primary::rays(&view, resolution);
         let places = Places::of_hits(&reference.hits(&primary), &primary, scene);
         let set = |kind, rays: Vec<Ray>| RaySet { kind, rays, parents: places.parents.clone() };
+        let (shared, parents) = ao_shared::rays(&places, scene.diagonal);
+        let ao_shared = RaySet { kind: SetKind::AoShared, rays: shared, parents };
         let diffuse = set(SetKind::Diffuse, diffuse::rays(&places));
         let shadow = set(SetKind::Shadow, shadow::rays(&places, scene.light));
         let ao = set(SetKind::Ao, ao::rays(&places, scene.diagonal));
         let primary = RaySet { kind: SetKind::Primary, rays: primary, parents: Vec::new() };
-        Ok(Self { resolution, sets: [primary, diffuse, shadow, ao] })
+        Ok(Self { resolution, sets: [primary, diffuse, shadow, ao, ao_shared] })
     }
 
     /// The rays from their file in `folder`; made, and kept there, if they are not there yet.
@@ -160,7 +168,7 @@ pub(crate) mod tests {
     #[test]
     fn sets_are_what_they_say() {
         let (scene, reference, sets) = terrain();
-        let [primary, diffuse, shadow, ao] = &sets.sets;
+        let [primary, diffuse, shadow, ao, _] = &sets.sets;
         assert_eq!(primary.rays.len(), 64 * 64);
         let hits = reference.hits(&primary.rays);
         let count = hits.iter().flatten().count();
@@ -198,6 +206,36 @@ pub(crate) mod tests {
     }
 
     #[test]
+    fn shadow_rays_meet_in_the_light() {
+        let (scene, _, sets) = terrain();
+        let light = |ray: &Ray| {
+            let [o, d] = [ray.origin, ray.direction].map(|v| DVec3::from(v.map(f64::from)));
+            o + d
+        };
+        let rays = &sets.set(SetKind::Shadow).rays;
+        let first = light(&rays[0]);
+        assert!(first.distance(DVec3::from(scene.light)) < 1e-5);
+        assert!(rays.iter().all(|ray| light(ray) == first));
+    }
+
+    #[test]
+    fn rays_of_a_tile_share_a_direction_off_the_surface() {
+        let (scene, reference, sets) = terrain();
+        let hits = reference.hits(&sets.sets[0].rays);
+        let set = sets.set(SetKind::AoShared);
+        let mut directions: Vec<_> = set.rays.iter().map(|ray| ray.direction).collect();
+        directions.dedup();
+        assert!((2..=16).contains(&directions.len()), "one of 16 tiles each");
+        for (ray, &parent) in set.rays.iter().zip(&set.parents) {
+            let hit = hits[parent as usize].expect("parents hit");
+            let normal = DVec3::from(scene.mesh.geometric_normal(hit.primitive_id));
+            let arrival = Vec3::from(sets.sets[0].rays[parent as usize].direction).as_dvec3();
+            let direction = Vec3::from(ray.direction).as_dvec3();
+            assert!(normal.dot(arrival) * normal.dot(direction) < 0.0);
+        }
+    }
+
+    #[test]
     fn cosine_directions_have_the_mean_cosine_two_thirds() {
         let (scene, reference, sets) = terrain();
         let hits = reference.hits(&sets.sets[0].rays);
@@ -223,7 +261,7 @@ pub(crate) mod tests {
     fn sets_have_names() {
         let names = ["ao".to_owned(), "primary".to_owned()];
         assert_eq!(SetKind::of_names(&names).unwrap(), [SetKind::Ao, SetKind::Primary]);
-        assert_eq!(SetKind::of_names(&[]).unwrap().len(), 4);
+        assert_eq!(SetKind::of_names(&[]).unwrap().len(), 5);
         assert!(SetKind::of_names(&["sunshine".to_owned()]).is_err());
     }
 }

@@ -1,6 +1,7 @@
 //! All figures of a run, and the forms in which they are told.
 
 mod file;
+mod packets;
 mod plot;
 mod record;
 mod summary;
@@ -22,6 +23,9 @@ pub(crate) struct RayRow {
     pub(crate) scene: String,
     pub(crate) set: String,
     pub(crate) contender: String,
+    /// Which other one it is, if it is the best of several.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) best: Option<String>,
     /// How many rays were traced: all of the set, or a sample.
     pub(crate) rays: usize,
     /// Million rays a second of the thread's processor time, the median of the rounds.
@@ -33,6 +37,19 @@ pub(crate) struct RayRow {
     /// Wrong answers among `rays`.
     #[serde(flatten)]
     pub(crate) wrong: Wrong,
+}
+
+/// How kdray's packets did on one set of rays: medians of the rounds' ratios.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct PacketRow {
+    pub(crate) scene: String,
+    pub(crate) set: String,
+    /// Which kernel of Embree was the best.
+    pub(crate) best: Option<String>,
+    /// Rays a second in those of that kernel.
+    pub(crate) to_best: Option<f64>,
+    /// Rays a second in those of kdray's single rays.
+    pub(crate) to_single: Option<f64>,
 }
 
 /// How a contender built.
@@ -74,14 +91,15 @@ pub(crate) struct Report {
     /// Names and numbers of triangles.
     pub(crate) scenes: Vec<(String, usize)>,
     pub(crate) rays: Vec<RayRow>,
+    pub(crate) packets: Vec<PacketRow>,
     pub(crate) builds: Vec<BuildRow>,
 }
 
 impl Report {
     /// Without figures yet.
     pub(crate) fn new(machine: Machine, resolution: u32, rounds: u32) -> Self {
-        let (scenes, rays, builds) = (Vec::new(), Vec::new(), Vec::new());
-        Self { machine, resolution, rounds, seconds: 0.0, scenes, rays, builds }
+        let (scenes, rays, packets, builds) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        Self { machine, resolution, rounds, seconds: 0.0, scenes, rays, packets, builds }
     }
 
     /// Values in the order in which they were first told.
@@ -238,6 +256,7 @@ pub(crate) mod tests {
                     scene: scene.clone(),
                     set: "primary".to_owned(),
                     contender: contender.clone(),
+                    best: None,
                     rays: 4096,
                     mrays: 3.0 * ratio,
                     mrays_wall: 2.0 * ratio,

@@ -1,6 +1,6 @@
 //! The figures as text.
 
-use super::{BuildRow, RayRow, Report, geometric_mean, summary};
+use super::{BuildRow, RayRow, Report, geometric_mean, packets, summary};
 use crate::reference::Wrong;
 
 /// All tables.
@@ -20,6 +20,11 @@ pub(super) fn text(report: &Report) -> String {
     let values = if report.has_ratios() { "ratios" } else { "rates" };
     text += &format!("\nGeometric means of the {values}\n");
     text += &columns(&means(report));
+    let packets = packets::table(report);
+    if !packets.is_empty() {
+        text += packets::TITLE;
+        text += &columns(&packets);
+    }
     text += "\nWrong answers in all scenes: lost / phantom / far of so many rays\n";
     text += &columns(&wrong(report));
     let threads: Vec<String> = report.build_threads().iter().map(usize::to_string).collect();
