@@ -72,7 +72,7 @@ impl<S: Subject<K>, const K: usize> Case<S, K> {
 }
 
 /// The largest distance, in diagonals, from which rays come.
-const FAR: f64 = 1e12;
+pub(crate) const FAR: f64 = 1e12;
 
 pub(crate) static TRIANGLES: LazyLock<Vec<Case<TriangleMesh, 3>>> = LazyLock::new(|| {
     let soup = |scale: f32, seed| meshes::mesh(meshes::soup(150, [0.0; 3], scale, seed));

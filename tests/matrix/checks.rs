@@ -40,14 +40,8 @@ pub(crate) fn on_each_mesh(
     instructions: &str,
     check: impl Fn(&Scene, &[&Aimed<3>]) -> Result<(), String> + Sync,
 ) {
-    let instructions = match InstructionSet::of_name(instructions) {
-        Ok(instructions) => instructions,
-        Err(unknown) => return not_run(&unknown),
-    };
-    let options = BuildOptions { cost: CostModel { block: 8, ..options.cost }, ..*options };
     for case in cases {
-        let scene = Scene::build(case.subject.clone(), &options).expect("cases are valid");
-        let scene = scene.with_instructions(instructions);
+        let Some(scene) = scene_with(options, case, instructions) else { return };
         let in_planes = in_split_planes(case, scene.tree());
         let aimed: Vec<_> = case.aimed.iter().chain(&in_planes).collect();
         let count = aimed.len().max(TURNS);
@@ -56,6 +50,25 @@ pub(crate) fn on_each_mesh(
             panic!("case {:?}, {error}", case.name);
         }
     }
+}
+
+/// The scene of a case, to be searched by the kernels of an instruction set; none if this processor
+/// does not have it.
+pub(crate) fn scene_with(
+    options: &BuildOptions,
+    case: &Case<TriangleMesh, 3>,
+    instructions: &str,
+) -> Option<Scene> {
+    let instructions = match InstructionSet::of_name(instructions) {
+        Ok(instructions) => instructions,
+        Err(unknown) => {
+            not_run(&unknown);
+            return None;
+        }
+    };
+    let options = BuildOptions { cost: CostModel { block: 8, ..options.cost }, ..*options };
+    let scene = Scene::build(case.subject.clone(), &options).expect("cases are valid");
+    Some(scene.with_instructions(instructions))
 }
 
 #[expect(clippy::print_stderr, reason = "whoever reads the log should know")]

@@ -1,11 +1,13 @@
 //! Every strategy, kind of primitive and query, against the answer of testing every primitive and
 //! against rational arithmetic. A test's name says which: `sah::triangles::closest_hit`; those of
-//! the kernels name their instruction set: `sah::kernels::avx2::closest_hit`, and those of packets
-//! their kind: `sah::packets::frustum::triangles`.
+//! the kernels name their instruction set: `sah::kernels::avx2::closest_hit`, those of their packets
+//! too: `sah::kernels::avx2::packets_closest_hit`; and those of the packets that can be watched, on the
+//! canonical tree, their kind: `sah::packets::frustum::triangles`.
 
 mod cases;
 mod checks;
 mod packets;
+mod ray_packets;
 
 use cases::{BALLS_2D, BALLS_3D, SEGMENTS, TRIANGLES};
 use checks::{all_hits, all_touched, any_hit, closest_hit, count};
@@ -59,6 +61,25 @@ macro_rules! kernels {
                     fn any_hit_near() {
                         let set = stringify!($instructions);
                         checks::on_each_mesh(&options(), &TRIANGLES, set, kernel_any_hit_near);
+                    }
+
+                    #[test]
+                    fn packets_closest_hit() {
+                        let set = stringify!($instructions);
+                        ray_packets::on_each(&options(), set, ray_packets::closest_hit);
+                    }
+
+                    #[test]
+                    fn packets_any_hit() {
+                        let set = stringify!($instructions);
+                        ray_packets::on_each(&options(), set, ray_packets::any_hit);
+                    }
+
+                    #[test]
+                    fn packets_in_float() {
+                        let set = stringify!($instructions);
+                        ray_packets::on_each(&options(), set, ray_packets::float);
+                        ray_packets::nearly_all_in_float(&options(), set);
                     }
                 }
             )*

@@ -1,6 +1,12 @@
 //! One file for each bug that was fixed, named for what it was.
 
+mod hits_of_dead_rays;
+mod lanes_behind_the_last_ray;
 mod order_of_waiting_nodes;
 mod overflow_in_the_filter;
+mod rounded_way_to_a_target;
+mod sign_of_zero;
+mod target_from_the_wrong_end;
+mod ties_where_rays_begin;
 mod underflow_of_den;
 mod underflow_of_t;

@@ -10,9 +10,13 @@ pub mod command_line;
 pub mod flat;
 pub mod meshes;
 pub mod oracle;
+pub mod owned_packet;
+pub mod packer;
 pub mod parity;
 pub mod rays;
 pub mod shared;
 pub mod subject;
 
+pub use owned_packet::OwnedPacket;
+pub use packer::Packer;
 pub use subject::Subject;

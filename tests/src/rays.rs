@@ -25,10 +25,15 @@ impl<'a, S: Subject<K>, const K: usize> Archer<'a, S, K> {
         Self { subject, bounds, random: random(seed) }
     }
 
+    /// Whether there is nothing to aim at.
+    pub(crate) fn is_at_nothing(&self) -> bool {
+        self.bounds.is_empty()
+    }
+
     /// Rays of every kind, about `each` of a kind. Origins are up to `farthest` diagonals away.
     pub fn all_kinds(&mut self, each: usize, farthest: f64) -> Vec<Ray<K>> {
         let mut rays = Vec::new();
-        if self.bounds.is_empty() {
+        if self.is_at_nothing() {
             return vec![Ray::new([0.0; K], [1.0; K])];
         }
         for _ in 0..each {
@@ -59,10 +64,15 @@ impl<'a, S: Subject<K>, const K: usize> Archer<'a, S, K> {
 
     /// From a distance of up to `farthest` diagonals, at a corner.
     fn at_a_vertex_from_afar(&mut self, farthest: f64) -> Ray<K> {
+        let origin = self.point_afar(farthest);
+        Ray::through(origin, self.corner())
+    }
+
+    /// A point at a distance of up to `farthest` diagonals.
+    pub(crate) fn point_afar(&mut self, farthest: f64) -> [f64; K] {
         let exponent = self.random.random_range(0.0..=farthest.log10());
         let scale = 10.0_f64.powf(exponent) * self.size();
-        let origin = std::array::from_fn(|_| self.random.random_range(-scale..scale));
-        Ray::through(origin, self.corner())
+        std::array::from_fn(|_| self.random.random_range(-scale..scale))
     }
 
     /// Through a corner; exactly so, for the origin is an f32 of about the same size, so that the
@@ -151,7 +161,7 @@ impl<'a, S: Subject<K>, const K: usize> Archer<'a, S, K> {
     }
 
     /// A point in the box of all primitives, grown on each side by `margin` diagonals.
-    fn around(&mut self, margin: f64) -> [f64; K] {
+    pub(crate) fn around(&mut self, margin: f64) -> [f64; K] {
         let margin = margin * self.bounds.diagonal();
         std::array::from_fn(|k| {
             let (min, max) = (f64::from(self.bounds.min[k]), f64::from(self.bounds.max[k]));
@@ -159,27 +169,27 @@ impl<'a, S: Subject<K>, const K: usize> Archer<'a, S, K> {
         })
     }
 
-    fn zero(&mut self) -> f64 {
+    pub(crate) fn zero(&mut self) -> f64 {
         if self.random.random() { 0.0 } else { -0.0 }
     }
 
     /// The diagonal; the distance from zero if the box is a point.
-    fn size(&self) -> f64 {
+    pub(crate) fn size(&self) -> f64 {
         let largest = self.bounds.max.iter().fold(f32::MIN_POSITIVE, |m, x| m.max(x.abs()));
         if self.bounds.diagonal() > 0.0 { self.bounds.diagonal() } else { f64::from(largest) }
     }
 
-    fn corners(&mut self) -> Vec<[f64; K]> {
+    pub(crate) fn corners(&mut self) -> Vec<[f64; K]> {
         let id = self.random.random_range(0..self.subject.count() as u32);
         self.subject.corners(id)
     }
 
-    fn corner(&mut self) -> [f64; K] {
+    pub(crate) fn corner(&mut self) -> [f64; K] {
         let corners = self.corners();
         corners[self.random.random_range(0..corners.len())]
     }
 
-    fn edge(&mut self) -> ([f64; K], [f64; K]) {
+    pub(crate) fn edge(&mut self) -> ([f64; K], [f64; K]) {
         let corners = self.corners();
         let first = self.random.random_range(0..corners.len());
         (corners[first], corners[(first + 1) % corners.len()])
@@ -187,6 +197,6 @@ impl<'a, S: Subject<K>, const K: usize> Archer<'a, S, K> {
 }
 
 /// The nearest finite f32.
-fn rounded(x: f64) -> f64 {
+pub(crate) fn rounded(x: f64) -> f64 {
     f64::from(x.clamp(f32::MIN.into(), f32::MAX.into()) as f32)
 }

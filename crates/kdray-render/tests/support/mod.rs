@@ -60,7 +60,7 @@ pub(crate) fn add_ball(model: &mut Model, center: [f32; 3], radius: f32, materia
     assert_eq!(missing, flat.len());
     model.normals.extend(flat);
     let mut add = |corners: [glam::Vec3; 3]| {
-        let normals = corners.map(|p| p.normalize());
+        let normals = corners.map(glam::Vec3::normalize);
         let first = model.vertices.len() as u32;
         let center = glam::Vec3::from(center);
         model.vertices.extend(normals.map(|n| (center + radius * n).to_array()));

@@ -1,0 +1,238 @@
+//! The packets of the kernels: packets that are hard on purpose, and the answers to their rays, to the
+//! last bit those of testing every triangle.
+
+use crate::cases::{Case, FAR, TRIANGLES};
+use crate::checks::scene_with;
+use kdray::geometry::Common;
+use kdray::primitives::HitArrays;
+use kdray::{Arithmetic, BuildOptions, Hit, Interval, Ray, Scene, ShapeScene, Side, TriangleMesh};
+use kdray_tests::rays::random;
+use kdray_tests::{OwnedPacket, Packer};
+use rand::RngExt;
+use rand::seq::IndexedRandom;
+use rand_pcg::Pcg64Mcg;
+use rayon::prelude::*;
+use std::sync::LazyLock;
+
+/// How many packets of each kind and size are made for each case.
+const EACH: usize = 3;
+
+/// How many times packets are made with rays in the split planes of each tree.
+const IN_SPLIT_PLANES: usize = 4;
+
+/// A packet, and the answers to its rays without a tree.
+pub(crate) struct Asked {
+    packet: OwnedPacket,
+    naive: Vec<Option<Hit>>,
+}
+
+/// For each case of [`TRIANGLES`] its packets.
+static PACKETS: LazyLock<Vec<Vec<Asked>>> = LazyLock::new(|| {
+    let made = |case: &Case<TriangleMesh, 3>| {
+        let rays: Vec<Ray> = case.aimed.iter().map(|aimed| aimed.ray).collect();
+        let packets = Packer::new(&case.subject, &rays, case.seed).all_kinds(EACH, FAR);
+        asked(&case.subject, packets, case.seed)
+    };
+    TRIANGLES.iter().map(made).collect()
+});
+
+/// Packets as they are, and with other intervals.
+fn asked(mesh: &TriangleMesh, packets: Vec<OwnedPacket>, seed: u64) -> Vec<Asked> {
+    let one_leaf = BuildOptions { leaf_size: usize::MAX, ..BuildOptions::default() };
+    let shapes = ShapeScene::build(mesh.clone(), &one_leaf).expect("cases are valid");
+    let variants = |(index, packet): (usize, OwnedPacket)| {
+        let mut random = random(seed + 1000 * index as u64);
+        let ts = ts_of_hits(&shapes, &packet);
+        let same = packet.with_interval(one_interval(&ts, &mut random));
+        let own: Vec<_> = ts.iter().map(|&t| own_interval(t, &mut random)).collect();
+        [packet.with_intervals(&own), same, packet]
+    };
+    let naive = |packet: OwnedPacket| {
+        let naive = packet.rays().iter().map(|ray| shapes.naive().closest_hit(ray)).collect();
+        Asked { packet, naive }
+    };
+    let packets: Vec<_> = packets.into_iter().enumerate().collect();
+    packets.into_par_iter().flat_map(variants).map(naive).collect()
+}
+
+/// Where the line of each ray meets a triangle: the first hit before its origin or, of others, behind.
+fn ts_of_hits(shapes: &ShapeScene, packet: &OwnedPacket) -> Vec<Option<f64>> {
+    let first = |ray: &Ray| {
+        let ahead = shapes.naive().closest_hit(ray);
+        let line = Ray { interval: Interval::LINE, ..*ray };
+        ahead.or_else(|| shapes.naive().closest_hit(&line)).map(|hit| hit.t)
+    };
+    packet.rays().iter().map(first).collect()
+}
+
+/// An interval for all rays, about the hit of one.
+fn one_interval(ts: &[Option<f64>], random: &mut Pcg64Mcg) -> Interval {
+    let t = ts.choose(random).copied().flatten();
+    if random.random() { own_interval(t, random) } else { INTERVALS[random.random_range(0..10)] }
+}
+
+/// An interval that begins or ends exactly at a hit or a step before or behind, or any other.
+fn own_interval(t: Option<f64>, random: &mut Pcg64Mcg) -> Interval {
+    let any = INTERVALS[random.random_range(0..INTERVALS.len())];
+    let Some(t) = t else { return any };
+    let (t_min, t_max) = match random.random_range(0..10) {
+        0 => (t, f64::INFINITY),
+        1 => (t.next_up(), f64::INFINITY),
+        2 => (0.0, t),
+        3 => (0.0, t.next_down()),
+        4 => (t, t),
+        5 => (f64::NEG_INFINITY, t),
+        6 => (0.5 * t, 2.0 * t),
+        7 => (t.next_down(), t.next_up()),
+        _ => return any,
+    };
+    Interval { t_min, t_max }
+}
+
+/// All t, some, and none.
+const INTERVALS: [Interval; 14] = {
+    const fn from(t_min: f64, t_max: f64) -> Interval {
+        Interval { t_min, t_max }
+    }
+    [
+        Interval::FORWARD,
+        Interval::FORWARD,
+        Interval::LINE,
+        from(0.0, 1.0),
+        from(0.0, 0.5),
+        from(1e-9, 1.0),
+        from(-1e30, 1e30),
+        from(f64::NEG_INFINITY, 0.0),
+        from(0.0, 0.0),
+        from(0.5, 1e300),
+        from(1.0, 0.0),
+        from(-2.0, -1.0),
+        from(f64::INFINITY, f64::INFINITY),
+        from(f64::NAN, 1.0),
+    ]
+};
+
+/// What is compared of a packet's answers: this is told of the first that is wrong.
+pub(crate) type Check = fn(&Scene, &Asked, &mut HitArrays) -> Result<(), String>;
+
+/// Builds a tree over each case and checks the answers to its packets, and to packets in the tree's
+/// split planes, by the kernels of an instruction set, if this processor has it.
+pub(crate) fn on_each(options: &BuildOptions, instructions: &str, check: Check) {
+    for (case, packets) in TRIANGLES.iter().zip(PACKETS.iter()) {
+        let Some(scene) = scene_with(options, case, instructions) else { return };
+        let rays: Vec<Ray> = case.aimed.iter().map(|aimed| aimed.ray).collect();
+        let mut packer = Packer::new(&case.subject, &rays, case.seed + 1);
+        let in_planes = packer.in_split_planes(scene.tree(), IN_SPLIT_PLANES);
+        let in_planes = asked(&case.subject, in_planes, case.seed + 1);
+        // What was there before must not matter.
+        let mut hits = HitArrays::default();
+        let mut wrong = Vec::new();
+        for asked in packets.iter().chain(&in_planes) {
+            wrong.extend(check(&scene, asked, &mut hits).err());
+        }
+        if let Some(first) = wrong.first() {
+            let all = packets.len() + in_planes.len();
+            panic!("case {:?}, {} of {all} packets: {first}", case.name, wrong.len());
+        }
+    }
+}
+
+/// The closest hits of a packet's rays, and of each ray alone.
+pub(crate) fn closest_hit(
+    scene: &Scene,
+    asked: &Asked,
+    hits: &mut HitArrays,
+) -> Result<(), String> {
+    let packet = asked.packet.packet();
+    scene.packet_closest_hits(&packet, hits);
+    assert_eq!(hits.len(), packet.len());
+    for (index, naive) in asked.naive.iter().enumerate() {
+        let (ray, found) = (packet.ray(index), hits.get(index));
+        same(asked, index, &bits(found), &bits(*naive))?;
+        same(asked, index, &bits(scene.closest_hit(&ray)), &bits(*naive))?;
+    }
+    Ok(())
+}
+
+/// Whether a packet's rays hit anything.
+pub(crate) fn any_hit(scene: &Scene, asked: &Asked, _: &mut HitArrays) -> Result<(), String> {
+    let packet = asked.packet.packet();
+    // What was there before must not matter.
+    let mut found: Vec<bool> = (0..packet.len()).map(|index| index % 2 == 0).collect();
+    scene.packet_any_hits(&packet, &mut found);
+    for (index, (found, naive)) in found.iter().zip(&asked.naive).enumerate() {
+        same(asked, index, found, &naive.is_some())?;
+        same(asked, index, &scene.any_hit(&packet.ray(index)), &naive.is_some())?;
+    }
+    Ok(())
+}
+
+/// Answers in float arithmetic to all packets: which they are is checked elsewhere, but that the ids
+/// are of triangles, and t within the interval or close to its ends.
+pub(crate) fn float(scene: &Scene, asked: &Asked, hits: &mut HitArrays) -> Result<(), String> {
+    let scene = scene.clone().with_arithmetic(Arithmetic::Float);
+    let packet = asked.packet.packet();
+    scene.packet_closest_hits(&packet, hits);
+    scene.packet_any_hits(&packet, &mut vec![false; packet.len()]);
+    for index in 0..packet.len() {
+        let Some(hit) = hits.get(index) else { continue };
+        let is_one = (hit.primitive_id as usize) < scene.mesh().triangles().len();
+        let is_sane = is_one && !hit.t.is_nan() && packet.ray(index).check().is_ok();
+        same(asked, index, &(is_sane, hit), &(true, hit))?;
+    }
+    Ok(())
+}
+
+/// In float arithmetic nearly all random rays hit or miss as they do exactly.
+pub(crate) fn nearly_all_in_float(options: &BuildOptions, instructions: &str) {
+    // Single rays are not accurate either where coordinates are far larger than triangles.
+    let is_far = |case: &Case<TriangleMesh, 3>| case.name == "far soup";
+    let is_empty = |case: &Case<TriangleMesh, 3>| case.subject.triangles().is_empty();
+    for case in TRIANGLES.iter().filter(|case| !is_far(case) && !is_empty(case)) {
+        let Some(exact) = scene_with(options, case, instructions) else { return };
+        let float = exact.clone().with_arithmetic(Arithmetic::Float);
+        let mut packer = Packer::new(&case.subject, &[], case.seed + 2);
+        let packets: Vec<_> = (0..8).flat_map(|_| packer.at_random(256)).collect();
+        let (mut differ, mut rays, mut hits) = (0, 0, HitArrays::default());
+        for packet in packets.iter().map(OwnedPacket::packet) {
+            let mut any = vec![false; packet.len()];
+            float.packet_any_hits(&packet, &mut any);
+            float.packet_closest_hits(&packet, &mut hits);
+            for (index, any) in any.iter().enumerate() {
+                let is_hit = exact.any_hit(&packet.ray(index));
+                differ += usize::from(*any != is_hit);
+                differ += usize::from(hits.get(index).is_some() != is_hit);
+                rays += 2;
+            }
+        }
+        assert!(differ * 100 <= rays, "case {:?}: {differ} of {rays} answers", case.name);
+    }
+}
+
+/// All numbers of a hit to the last bit, signs of zeros included.
+fn bits(hit: Option<Hit>) -> Option<(u64, u32, [u64; 2], Side)> {
+    let bits =
+        |hit: Hit| (hit.t.to_bits(), hit.primitive_id, [hit.u, hit.v].map(f64::to_bits), hit.side);
+    hit.map(bits)
+}
+
+fn same<T: PartialEq + std::fmt::Debug>(
+    asked: &Asked,
+    index: usize,
+    found: &T,
+    naive: &T,
+) -> Result<(), String> {
+    if found == naive {
+        return Ok(());
+    }
+    let packet = asked.packet.packet();
+    let kind = match packet.common() {
+        Common::Origin(_) => "origin",
+        Common::Direction(_) => "direction",
+        Common::Target(_) => "target",
+    };
+    let (count, ray) = (packet.len(), packet.ray(index));
+    Err(format!(
+        "common {kind}, ray {index} of {count}, {ray:?}: found {found:?}, without a tree {naive:?}"
+    ))
+}

@@ -1,0 +1,90 @@
+//! Packets on real scenes give the answers of single rays, to the last bit: camera rays, which share
+//! their origin; from what they hit, shadow rays to the scene's light, and rays to the sun.
+//!
+//! Some small scenes are looked at, or all that have a camera with the environment variable `KDRAY_FULL`
+//! set.
+
+use kdray::geometry::{Common, tile_order};
+use kdray::primitives::HitArrays;
+use kdray::{BuildOptions, Preset, Ray, Scene};
+use kdray_tests::OwnedPacket;
+use kdray_tests::agree::view;
+use kdray_tests::shared::{CameraInfo, SceneInfo, load_mesh, scenes};
+
+/// Small scenes that are hard in different ways.
+const SCENES: [&str; 7] = [
+    "cornell_box",
+    "teapot",
+    "suzanne",
+    "lego_car",
+    "awkward_axis_aligned",
+    "awkward_degenerate",
+    "awkward_nonmanifold",
+];
+
+/// Pixels across and down; not a multiple of a tile's, so that packets are not whole.
+const SIZE: usize = 120;
+
+/// Where the sun is; no component is zero, or like another.
+const SUN: [f64; 3] = [0.41, 0.73, -0.29];
+
+fn chosen() -> impl Iterator<Item = (SceneInfo, CameraInfo)> {
+    let is_full = std::env::var_os("KDRAY_FULL").is_some();
+    let seen = move |info: SceneInfo| {
+        let camera = info.camera.filter(|_| is_full || is_small(&info))?;
+        Some((info, camera))
+    };
+    scenes().into_iter().flatten().filter_map(seen)
+}
+
+fn is_small(info: &SceneInfo) -> bool {
+    SCENES.contains(&info.name.as_str())
+}
+
+/// The camera's rays, neighbours together.
+fn camera_rays(camera: &CameraInfo) -> (OwnedPacket, Vec<Ray>) {
+    let by_rows = view(camera, SIZE);
+    let place = |[x, y]: [u32; 2]| y as usize * SIZE + x as usize;
+    let rays: Vec<Ray> =
+        tile_order(SIZE as u32, SIZE as u32).map(|pixel| by_rows[place(pixel)]).collect();
+    let directions: Vec<_> = rays.iter().map(|ray| ray.direction).collect();
+    (OwnedPacket::new(Common::Origin(camera.eye), &directions), rays)
+}
+
+/// Compares all answers to a packet with those to its rays alone; how many hit.
+fn count_same(scene: &Scene, name: &str, packet: &OwnedPacket) -> usize {
+    let packet = packet.packet();
+    let (mut hits, mut found) = (HitArrays::default(), vec![false; packet.len()]);
+    scene.packet_closest_hits(&packet, &mut hits);
+    scene.packet_any_hits(&packet, &mut found);
+    for (index, found) in found.iter().enumerate() {
+        let ray = packet.ray(index);
+        let alone = scene.closest_hit(&ray);
+        assert_eq!(hits.get(index), alone, "{name}, ray {index}: {ray:?}");
+        assert_eq!(*found, alone.is_some(), "{name}, any hit of ray {index}: {ray:?}");
+    }
+    found.into_iter().filter(|&is_hit| is_hit).count()
+}
+
+#[test]
+fn packets_see_what_single_rays_see() {
+    for (info, camera) in chosen() {
+        let mesh = load_mesh(&info).expect("the scene loads");
+        for preset in Preset::ALL {
+            let scene = Scene::build(mesh.clone(), &BuildOptions::preset(preset));
+            let scene = scene.expect("the scene is valid");
+            let told = |what| format!("{what} of {} with {preset:?}", info.name);
+            let (packet, rays) = camera_rays(&camera);
+            let seen = count_same(&scene, &told("camera rays"), &packet);
+            assert!(seen > 100 || !is_small(&info), "{} is hardly hit", info.name);
+            let points = rays.iter().filter_map(|ray| Some(ray.at(scene.closest_hit(ray)?.t)));
+            let points: Vec<_> = points.collect();
+            let to_the_sun = OwnedPacket::new(Common::Direction(SUN), &points);
+            count_same(&scene, &told("rays to the sun"), &to_the_sun);
+            if let Some(light) = info.point_light {
+                let to_the_light = OwnedPacket::new(Common::Target(light), &points);
+                count_same(&scene, &told("shadow rays"), &to_the_light);
+            }
+        }
+    }
+}

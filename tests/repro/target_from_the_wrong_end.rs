@@ -1,0 +1,21 @@
+//! Rays to a common target are bounded from there; the closest hit was sought from there too, and the
+//! farthest one was found.
+
+use kdray::primitives::HitArrays;
+use kdray::{BuildOptions, RayPacket, Scene};
+use kdray_tests::meshes;
+
+#[test]
+fn the_closest_hit_is_the_one_closest_to_the_origin() {
+    let wall = |z: f32| [[-9.0, -9.0, z], [9.0, -9.0, z], [0.0, 9.0, z]];
+    let mesh = meshes::mesh(vec![wall(1.0), wall(2.0), wall(3.0)]);
+    let scene = Scene::build(mesh, &BuildOptions::default()).unwrap();
+    let x: Vec<f64> = (0..64).map(|i| 0.01 * f64::from(i)).collect();
+    let (y, z) = (vec![0.0; 64], vec![4.0; 64]);
+    let packet = RayPacket::towards([0.0; 3], [&x, &y, &z]);
+    let mut hits = HitArrays::default();
+    scene.packet_closest_hits(&packet, &mut hits);
+    for index in 0..64 {
+        assert_eq!(hits.get(index), scene.closest_hit(&packet.ray(index)));
+    }
+}
