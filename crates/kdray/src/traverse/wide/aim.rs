@@ -2,14 +2,12 @@
 
 use super::block::{EDGE_ERROR, T_ERROR};
 use super::line::{Line, NoAim, larger};
+use super::rounding::{F32_SLACK, HIT_ERROR, ROUNDING};
 use crate::geometry::Ray;
 use crate::layout::WideTree;
 use crate::simd::Lanes;
 use fearless_simd::prelude::*;
 use fearless_simd::{f32x4, f64x4};
-
-/// Half the distance from 1 to the next f32.
-const ROUNDING: f64 = (f32::EPSILON / 2.0) as f64;
 
 /// Directions whose largest component is from the inverse of this to this are taken as they are.
 const LARGEST_COMPONENT: f64 = (1 << 16) as f64;
@@ -17,12 +15,6 @@ const LARGEST_COMPONENT: f64 = (1 << 16) as f64;
 /// What a direction's component counts as at least where it is divided by: 2^-40 of the least that the
 /// largest component may be.
 const LEAST_COMPONENT: f32 = 1.0 / (1_u64 << 56) as f32;
-
-/// How far, relative to t, a reported t may be from the true one, with room for the conversion.
-const HIT_ERROR: f64 = 1.0 / (1_u64 << 38) as f64;
-
-/// More than what rounding to f32 changes, relatively.
-const F32_SLACK: f64 = 1.0 / (1 << 22) as f64;
 
 /// A ray in f32: the direction scaled by a power of two if it is very long or very short, the origin
 /// moved along the ray into the tree's reach if it is far away. Fourth components mean nothing.
@@ -132,7 +124,7 @@ impl Aim {
         let length = x + y + z;
         (self.edge_rate, self.t_rate) = (EDGE_ERROR * length, T_ERROR * length);
         self.blur = (shift.abs() * (1.0 / (1 << 16) as f64)) as f32;
-        self.least_distance = ((off + moving) * (0.5 / ROUNDING)) as f32;
+        self.least_distance = ((off + moving) * (0.5 / f64::from(ROUNDING))) as f32;
         (self.scale, self.shift) = (scale, shift);
         self.t_near = (t_near - t_near.abs() * F32_SLACK) as f32;
         self.near_rate = self.rate_at(self.t_near);

@@ -1,22 +1,17 @@
 //! The triangle test on eight triangles at once.
 
 use super::aim::Aim;
-use super::vector::{Vector, cross, difference, dot, largest, splat};
+use super::rounding::{ROUNDING, UNDERFLOW};
+use super::vector::{Vector, cross, difference, dot, flip_sign, largest, splat};
 use crate::layout::TriangleBlock;
 use crate::simd::Lanes;
 use fearless_simd::prelude::*;
 use fearless_simd::{f32x8, mask32x8};
 
-/// Half the distance from 1 to the next f32.
-const ROUNDING: f32 = f32::EPSILON / 2.0;
-
 /// See [`error_bounds`].
 pub(super) const EDGE_ERROR: f32 = 48.0 * ROUNDING;
 const VOLUME_ERROR: f32 = 64.0 * ROUNDING;
 pub(super) const T_ERROR: f32 = 40.0 * ROUNDING;
-/// What underflow may do to T and the edge functions: products of three numbers up to 2^34 that lost
-/// 2^-150 each, with room.
-const UNDERFLOW: f32 = f32::MIN_POSITIVE * (1 << 14) as f32;
 /// What m and n count as at least, 2^-50. What underflow takes of den, 2^-148 and as much a unit of
 /// m, is multiplied by t. As t's share of the error is m n D by 40 u, and D ≥ 2^-16, that is more.
 const LEAST_EDGE: f32 = 1.0 / (1_u64 << 50) as f32;
@@ -155,11 +150,4 @@ fn error_bounds<S: Lanes>(simd: S, aim: &Aim, [m, n, distance]: [f32x8<S>; 3]) -
 fn corner<S: Lanes>(simd: S, block: &TriangleBlock, place: usize) -> Vector<S> {
     let load = |axis| f32x8::load_array_ref(simd, block.corner(place, axis));
     [load(0), load(1), load(2)]
-}
-
-/// x with its sign flipped where `sign` is negative.
-#[inline(always)]
-fn flip_sign<S: Lanes>(x: f32x8<S>, sign: f32x8<S>) -> f32x8<S> {
-    let negative = sign.to_bits() & 0x8000_0000_u32;
-    f32x8::from_bits(x.to_bits() ^ negative)
 }

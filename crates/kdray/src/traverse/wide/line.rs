@@ -7,7 +7,7 @@ const SIZES: std::ops::Range<f64> = 1e-290..1e290;
 
 /// Rays that start farther away than this many times the reach are not moved into it: the error of
 /// moving would be that of another rounding to f32.
-const FARTHEST: f64 = (1_u64 << 20) as f64;
+pub(super) const FARTHEST: f64 = (1_u64 << 20) as f64;
 
 /// What stands in the way of a kernel.
 #[derive(Clone, Copy, Debug)]

@@ -15,6 +15,7 @@ mod float;
 mod line;
 mod located;
 pub(crate) mod packet;
+mod rounding;
 mod search;
 mod single;
 mod slab;

@@ -40,3 +40,10 @@ pub(super) fn difference<S: Lanes>(a: Vector<S>, b: Vector<S>) -> Vector<S> {
 pub(super) fn largest<S: Lanes>(v: Vector<S>) -> f32x8<S> {
     v[0].abs().max(v[1].abs()).max(v[2].abs())
 }
+
+/// x with its sign flipped where `sign` is negative.
+#[inline(always)]
+pub(super) fn flip_sign<S: Lanes>(x: f32x8<S>, sign: f32x8<S>) -> f32x8<S> {
+    let negative = sign.to_bits() & 0x8000_0000_u32;
+    f32x8::from_bits(x.to_bits() ^ negative)
+}

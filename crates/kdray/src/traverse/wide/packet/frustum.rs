@@ -3,11 +3,9 @@
 use super::projection::Frame;
 use crate::layout::WideNode;
 use crate::simd::Lanes;
+use crate::traverse::wide::rounding::ROUNDING;
 use fearless_simd::prelude::*;
 use fearless_simd::{f32x8, mask32x8};
-
-/// Half the distance from 1 to the next f32.
-const ROUNDING: f32 = f32::EPSILON / 2.0;
 
 /// A side: on one of the axes u and v the rays lie above, or below, base + slope · z.
 #[derive(Clone, Copy)]

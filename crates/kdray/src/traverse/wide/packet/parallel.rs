@@ -3,17 +3,15 @@
 use super::forms::Forms;
 use super::frustum::{Frustum, Span};
 use super::prepare::{Ends, Points, SIZES, around_sum};
-use super::projection::{F32_SLACK, Frame, Projection, Wide, signed, widened};
+use super::projection::{Frame, Projection, Wide, signed, widened};
 use super::rays::Bounds;
 use crate::geometry::Ray;
 use crate::layout::TriangleBlock;
 use crate::simd::Lanes;
+use crate::traverse::wide::rounding::{F32_SLACK, ROUNDING, UNDERFLOW};
 use crate::traverse::wide::vector::Vector;
 use fearless_simd::prelude::*;
 use fearless_simd::{f32x8, f64x4};
-
-/// Half the distance from 1 to the next f32.
-const ROUNDING: f32 = f32::EPSILON / 2.0;
 
 /// See [`Parallel::forms`].
 const EDGE_ERROR: f32 = 128.0 * ROUNDING;
@@ -22,9 +20,6 @@ const SIZE_ERROR: f32 = 4.0 * ROUNDING;
 const LEAST_DEN: f32 = 1.0 / (1 << 22) as f32;
 /// Coordinates and ways beyond this do not take part; an end of a ray beyond it counts as here.
 const FARTHEST: f32 = (1_u64 << 60) as f32;
-
-/// More than underflow takes of a product of two numbers up to 2^34.
-const UNDERFLOW: f32 = f32::MIN_POSITIVE * (1 << 14) as f32;
 
 /// The packet's centre is the origin of one of its rays.
 #[derive(Clone, Copy)]

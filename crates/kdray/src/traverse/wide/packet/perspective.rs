@@ -3,17 +3,15 @@
 use super::forms::Forms;
 use super::frustum::{Frustum, Span};
 use super::prepare::{Ends, Points, around, is_main};
-use super::projection::{F32_SLACK, Frame, Projection, Wide, signed, widened};
+use super::projection::{Frame, Projection, Wide, signed, widened};
 use super::rays::Bounds;
 use crate::geometry::Ray;
 use crate::layout::TriangleBlock;
 use crate::simd::Lanes;
+use crate::traverse::wide::rounding::{F32_SLACK, ROUNDING, UNDERFLOW};
 use crate::traverse::wide::vector::{Vector, cross, difference, largest};
 use fearless_simd::prelude::*;
 use fearless_simd::{f32x8, f64x4};
-
-/// Half the distance from 1 to the next f32.
-const ROUNDING: f32 = f32::EPSILON / 2.0;
 
 /// Rays with greater slopes do not take part.
 const STEEPEST: f32 = 4.0;
@@ -22,8 +20,6 @@ const STEEPEST: f32 = 4.0;
 const EDGE_ERROR: f32 = 80.0 * ROUNDING;
 const DEPTH_ERROR: f32 = 16.0 * ROUNDING;
 const LEAST_VOLUME: f32 = 1.0 / (1 << 22) as f32;
-/// More than underflow takes of a product of three numbers up to 2^34.
-const UNDERFLOW: f32 = f32::MIN_POSITIVE * (1 << 14) as f32;
 
 /// The packet's centre is the point: a camera, a light.
 #[derive(Clone, Copy)]

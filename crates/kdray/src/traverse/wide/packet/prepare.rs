@@ -1,9 +1,10 @@
 //! A packet's rays become points.
 
-use super::projection::{F32_SLACK, Frame, Projection};
+use super::projection::{Frame, Projection};
 use super::rays::{Bounds, MOST_SETS, MOST_VECTORS, NONE, PacketRays, bits};
 use crate::geometry::{Common, RayPacket};
 use crate::simd::Lanes;
+use crate::traverse::wide::rounding::F32_SLACK;
 use fearless_simd::prelude::*;
 use fearless_simd::{f32x8, f64x4, mask32x8, u32x8};
 

@@ -16,15 +16,10 @@ use super::rays::Bounds;
 use crate::geometry::Ray;
 use crate::layout::TriangleBlock;
 use crate::simd::Lanes;
-use crate::traverse::wide::vector::Vector;
+use crate::traverse::wide::rounding::HIT_ERROR;
+use crate::traverse::wide::vector::{Vector, flip_sign};
 use fearless_simd::prelude::*;
 use fearless_simd::{f32x8, f64x4};
-
-/// How far, relative to t, a reported t may be from the true one, with room.
-const HIT_ERROR: f64 = 1.0 / (1_u64 << 37) as f64;
-
-/// More than what rounding to f32 changes, relatively.
-pub(super) const F32_SLACK: f64 = 1.0 / (1 << 22) as f64;
 
 /// A projection; see above.
 pub(super) trait Projection: Copy {
@@ -133,7 +128,5 @@ pub(super) fn widened<S: Lanes>(p: Vector<S>) -> [Wide<S>; 2] {
 /// With its sign flipped where `sign` is negative.
 #[inline(always)]
 pub(super) fn signed<S: Lanes>(v: Vector<S>, sign: f32x8<S>) -> Vector<S> {
-    let negative = sign.to_bits() & 0x8000_0000_u32;
-    let flip = |x: f32x8<S>| f32x8::from_bits(x.to_bits() ^ negative);
-    [flip(v[0]), flip(v[1]), flip(v[2])]
+    [flip_sign(v[0], sign), flip_sign(v[1], sign), flip_sign(v[2], sign)]
 }

@@ -1,0 +1,13 @@
+//! What rounding does, and how much is allowed for it.
+
+/// Half the distance from 1 to the next f32.
+pub(super) const ROUNDING: f32 = f32::EPSILON / 2.0;
+
+/// More than what rounding to f32 changes, relatively.
+pub(super) const F32_SLACK: f64 = 1.0 / (1 << 22) as f64;
+
+/// How far, relative to t, a reported t may be from the true one, with room for a conversion.
+pub(super) const HIT_ERROR: f64 = 1.0 / (1_u64 << 38) as f64;
+
+/// More than underflow takes of a product of three numbers up to 2^34 that lost 2^-150 each.
+pub(super) const UNDERFLOW: f32 = f32::MIN_POSITIVE * (1 << 14) as f32;
