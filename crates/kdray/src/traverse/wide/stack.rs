@@ -3,7 +3,7 @@
 use super::search::Search;
 use super::slab::Met;
 use crate::layout::{Link, STACK_SIZE};
-use crate::simd::Lanes;
+use crate::simd::{Lanes, Lists};
 use fearless_simd::prelude::*;
 use std::cell::RefCell;
 use std::hint::select_unpredictable;
@@ -52,12 +52,18 @@ impl Stack {
     /// they are entered is kept if the search shortens the ray.
     #[inline(always)]
     pub(super) fn push<'a, S: Lanes, Q: Search<'a>>(&mut self, met: &Met<S>) {
+        self.push_lists(&met.lists, met.count, Q::SHORTENS);
+    }
+
+    /// Adds the first `count` of `lists`, with where they are entered only if that is wanted.
+    #[inline(always)]
+    pub(super) fn push_lists<S: Lanes>(&mut self, lists: &Lists<S>, count: usize, with_t: bool) {
         let room = self.len..self.len + 8;
-        if Q::SHORTENS {
-            self.t[room.clone()].copy_from_slice(met.lists.t.as_array());
+        if with_t {
+            self.t[room.clone()].copy_from_slice(lists.t.as_array());
         }
-        self.links[room].copy_from_slice(met.lists.links.as_array());
-        self.len += met.count;
+        self.links[room].copy_from_slice(lists.links.as_array());
+        self.len += count;
     }
 
     /// Adds the children of a node but the nearest.
@@ -85,16 +91,30 @@ impl Stack {
         self.pop::<Q>(t_far)
     }
 
-    /// Takes the next whose box the ray enters up to `t_far`.
+    /// Takes the next; if the search shortens the ray, the next whose box it enters up to `t_far`.
+    #[inline(always)]
+    pub(super) fn pop<'a, Q: Search<'a>>(&mut self, t_far: f32) -> Link {
+        if Q::SHORTENS { self.pop_up_to(t_far) } else { self.pop_last() }
+    }
+
+    /// Takes the next.
+    #[inline(always)]
+    fn pop_last(&mut self) -> Link {
+        let (_, link) = self.top();
+        self.len = self.len.wrapping_sub(1);
+        link
+    }
+
+    /// Takes the next that is entered up to `t_far`.
     ///
     /// Those that wait below it cannot be dropped with one that begins behind `t_far`: boxes are
     /// wider than cells, so that a ray may meet the box of a cell that it passes by.
     #[inline(always)]
-    pub(super) fn pop<'a, Q: Search<'a>>(&mut self, t_far: f32) -> Link {
+    pub(super) fn pop_up_to(&mut self, t_far: f32) -> Link {
         loop {
             let (t, link) = self.top();
             self.len = self.len.wrapping_sub(1);
-            if !Q::SHORTENS || t <= t_far {
+            if t <= t_far {
                 return link;
             }
         }

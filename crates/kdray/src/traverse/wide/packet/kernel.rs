@@ -15,11 +15,9 @@ use crate::geometry::{Common, RayPacket};
 use crate::layout::{Link, WideTree};
 use crate::primitives::HitArrays;
 use crate::simd::{Kernel, Lanes, Lists};
+use crate::traverse::wide::line::FARTHEST;
 use fearless_simd::prelude::*;
 use fearless_simd::u32x8;
-
-/// Packets farther away than this many times the reach are left.
-const FARTHEST: f32 = (1 << 20) as f32;
 
 /// Rays to a target pass it at up to 2^-52 of their length: 2^24 times that.
 const BLUR: f32 = 1.0 / (1 << 28) as f32;
@@ -45,8 +43,7 @@ impl<const ANY: bool> Kernel for Packets<'_, ANY> {
 
     #[inline(always)]
     fn run<S: Lanes>(mut self, simd: S) -> PacketWork {
-        // Seen from the target, the closest hit is the last. Without vectors packets do not pay, and would
-        // take minutes to compile.
+        // Seen from the target, the closest hit is the last. Plain Rust has no packets (0012).
         let is_last = !ANY && matches!(self.packet.common(), Common::Target(_));
         if !S::HAS_VECTORS || is_last {
             self.left.extend(0..self.packet.len() as u32);
@@ -110,10 +107,11 @@ impl<const ANY: bool> Packets<'_, ANY> {
         frame: &Frame,
     ) -> PacketWork {
         let reach = self.tree.reach();
-        if !projection.is_within(reach * FARTHEST) {
+        if !projection.is_within(reach * FARTHEST as f32) {
             self.left.extend(range.0 as u32..(range.0 + range.1) as u32);
             return PacketWork::default();
         }
+        let left_before = self.left.len();
         let Scratch { local, rays, stack, found, .. } = &mut *self.scratch;
         found.clear();
         let bounds = place(simd, self.packet, range, (&projection, frame), local, rays, self.left);
@@ -155,16 +153,17 @@ impl<const ANY: bool> Packets<'_, ANY> {
                 let links = u32x8::load_array_ref(simd, node.links());
                 let (met, lists) = simd.pack(met, node.order(octant), Lists { t: z, links });
                 let count = met.count_ones() as usize;
-                stack.push(&lists, count);
+                stack.push_lists(&lists, count, true);
                 for &link in &lists.links.as_array()[..count.min(8)] {
                     touched = touched.wrapping_add(self.tree.touch(Link::from_bits(link)));
                 }
             }
-            next = stack.pop(z_far);
+            next = stack.pop_up_to(z_far);
         }
         std::hint::black_box(touched);
         let work = search.work;
         if is_given_up {
+            self.left.truncate(left_before);
             self.leave_open(range);
         }
         let Scratch { rays, found, seen, .. } = &mut *self.scratch;
@@ -176,7 +175,7 @@ impl<const ANY: bool> Packets<'_, ANY> {
                 }
             }
             Answers::Closest(hits) => {
-                if !ANY && !is_given_up {
+                if !is_given_up {
                     seen.clear();
                     if let Common::Origin(origin) = self.packet.common() {
                         seen.extend(found.iter().map(|it| Seen::new(origin, &it.corners)));
@@ -192,9 +191,6 @@ impl<const ANY: bool> Packets<'_, ANY> {
     #[cold]
     fn leave_open(&mut self, (first, count): (usize, usize)) {
         let rays = &self.scratch.rays;
-        // Those that do not fit were left before.
-        let before = self.left.iter().rposition(|&it| (it as usize) < first).map_or(0, |i| i + 1);
-        self.left.truncate(before);
         for (index, &slot) in rays.slot.as_flattened()[..count].iter().enumerate() {
             if !ANY || slot == NONE {
                 self.left.push((first + index) as u32);

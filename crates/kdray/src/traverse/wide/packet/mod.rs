@@ -27,7 +27,6 @@ mod projection;
 mod rays;
 mod scratch;
 mod search;
-mod stack;
 
 pub(crate) use kernel::{Answers, Packets};
 pub use pace::PacketWork;
