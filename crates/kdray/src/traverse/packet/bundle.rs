@@ -1,44 +1,30 @@
 //! What the rays of a frustum share: a point that they come from or go to, or a direction.
 
 use super::rays::PacketRay;
-use crate::geometry::{Interval, Ray, t_above, t_below};
+use crate::geometry::{Common, Interval, Ray, t_above, t_below};
 
 /// The steepest ray of a frustum, by the slope against its dominant axis. A wider frustum bounds
 /// hardly anything.
 const MAX_SLOPE: f64 = 64.0;
 
-/// How far a ray may end from the common end, in parts of its direction: what the rounding of a
-/// direction `end − origin` may do, with much to spare.
-const END_TOLERANCE: f64 = 1.0 / (1u64 << 32) as f64;
+/// How far a ray may pass the common target, in parts of its direction: what the rounding of a
+/// direction `target − origin` may do, with much to spare.
+const TARGET_TOLERANCE: f64 = 1.0 / (1u64 << 32) as f64;
 
-/// Where rays meet.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Meeting {
-    /// In the origin: camera rays.
-    Origin([f64; 3]),
-    /// Nowhere, as they are parallel: the rays of an orthographic camera, or to the sun.
-    Direction([f64; 3]),
-    /// At t = 1: shadow rays to a point light. They are run in reverse, with the apex at the light,
-    /// and none goes beyond it.
-    End([f64; 3]),
+/// The three things that other rays may share with `ray`.
+fn all(ray: &Ray<3>) -> [Common; 3] {
+    [Common::Origin(ray.origin), Common::Direction(ray.direction), Common::Target(ray.at(1.0))]
 }
 
-impl Meeting {
-    /// The three ways in which other rays may meet `ray`.
-    fn all(ray: &Ray<3>) -> [Self; 3] {
-        [Self::Origin(ray.origin), Self::Direction(ray.direction), Self::End(ray.at(1.0))]
-    }
-
-    /// Whether `ray` meets the others there, and has no part behind it.
-    fn holds(&self, ray: &Ray<3>) -> bool {
-        match self {
-            Self::Origin(origin) => ray.origin == *origin && ray.interval.t_min >= 0.0,
-            Self::Direction(direction) => ray.direction == *direction && ray.interval.t_min >= 0.0,
-            Self::End(end) => {
-                let longest = ray.direction.iter().fold(0.0_f64, |m, d| m.max(d.abs()));
-                let missed = (0..3).map(|k| (ray.at(1.0)[k] - end[k]).abs());
-                missed.fold(0.0, f64::max) <= END_TOLERANCE * longest && ray.interval.t_max <= 1.0
-            }
+/// Whether `ray` shares it, and has no part behind it.
+fn shares(common: &Common, ray: &Ray<3>) -> bool {
+    match common {
+        Common::Origin(origin) => ray.origin == *origin && ray.interval.t_min >= 0.0,
+        Common::Direction(direction) => ray.direction == *direction && ray.interval.t_min >= 0.0,
+        Common::Target(target) => {
+            let longest = ray.direction.iter().fold(0.0_f64, |m, d| m.max(d.abs()));
+            let missed = (0..3).map(|k| (ray.at(1.0)[k] - target[k]).abs());
+            missed.fold(0.0, f64::max) <= TARGET_TOLERANCE * longest && ray.interval.t_max <= 1.0
         }
     }
 }
@@ -47,7 +33,7 @@ impl Meeting {
 /// the base, and there at offset + slope · z on the others.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Bundle {
-    pub(super) meeting: Meeting,
+    pub(super) common: Common,
     /// The dominant axis.
     pub(super) axis: usize,
     /// 1 if z grows with the coordinate on the axis, or −1.
@@ -59,15 +45,15 @@ pub(super) struct Bundle {
 impl Bundle {
     /// The way in which most rays meet the first one.
     pub(super) fn of(rays: &[PacketRay]) -> Option<Self> {
-        let ways = Meeting::all(rays.first()?.ray());
-        let count = |way: &Meeting| rays.iter().filter(|ray| way.holds(ray.ray())).count();
+        let ways = all(rays.first()?.ray());
+        let count = |way: &Common| rays.iter().filter(|ray| shares(way, ray.ray())).count();
         // Of equal ways the first: `max_by_key` takes the last.
-        let meeting = ways.into_iter().rev().max_by_key(count)?;
+        let common = ways.into_iter().rev().max_by_key(count)?;
         let met: Vec<&Ray<3>> =
-            rays.iter().map(PacketRay::ray).filter(|ray| meeting.holds(ray)).collect();
+            rays.iter().map(PacketRay::ray).filter(|ray| shares(&common, ray)).collect();
         let (axis, forward) = dominant_axis(&met);
-        let sign = if forward == matches!(meeting, Meeting::End(_)) { -1.0 } else { 1.0 };
-        Some(Self { meeting, axis, sign, base: base(&meeting, axis, sign, &met) })
+        let sign = if forward == matches!(common, Common::Target(_)) { -1.0 } else { 1.0 };
+        Some(Self { common, axis, sign, base: base(&common, axis, sign, &met) })
     }
 
     /// Whether a ray meets the others, not too steeply, and with numbers that can be told.
@@ -75,9 +61,9 @@ impl Bundle {
         let ray = it.ray();
         let forward = self.sign * ray.direction[self.axis];
         let runs =
-            if matches!(self.meeting, Meeting::End(_)) { forward < 0.0 } else { forward > 0.0 };
+            if matches!(self.common, Common::Target(_)) { forward < 0.0 } else { forward > 0.0 };
         let sides = self.sides();
-        runs && self.meeting.holds(ray)
+        runs && shares(&self.common, ray)
             && sides.iter().all(|&side| self.slope(ray, side).abs() <= MAX_SLOPE)
             && sides.iter().all(|&side| self.offset(ray, side)[1].is_finite())
             && self.depths(ray, it.inside).t_max.is_finite()
@@ -139,20 +125,20 @@ fn dominant_axis(rays: &[&Ray<3>]) -> (usize, bool) {
 }
 
 /// A point from which all rays that meet go towards greater z.
-fn base(meeting: &Meeting, axis: usize, sign: f64, rays: &[&Ray<3>]) -> [f64; 3] {
-    match *meeting {
-        Meeting::Origin(origin) => origin,
-        Meeting::Direction(_) => {
+fn base(common: &Common, axis: usize, sign: f64, rays: &[&Ray<3>]) -> [f64; 3] {
+    match *common {
+        Common::Origin(origin) => origin,
+        Common::Direction(_) => {
             let depth = |ray: &&&Ray<3>| sign * ray.origin[axis];
             let hindmost = rays.iter().min_by(|a, b| depth(a).total_cmp(&depth(b)));
             hindmost.map_or([0.0; 3], |ray| ray.origin)
         }
-        Meeting::End(mut end) => {
-            // Rays end near the end only, and hits at their end are right to 2^-39 of t.
+        Common::Target(mut target) => {
+            // Rays end near the target only, and hits at their end are right to 2^-39 of t.
             let longest = rays.iter().flat_map(|ray| ray.direction);
             let longest = longest.fold(0.0_f64, |m, d| m.max(d.abs()));
-            end[axis] -= sign * 2.0 * END_TOLERANCE * longest;
-            end
+            target[axis] -= sign * 2.0 * TARGET_TOLERANCE * longest;
+            target
         }
     }
 }

@@ -5,9 +5,9 @@
 //! corner rays that pass an edge on one side no ray passes it on the other (Boulos, Wald & Shirley
 //! 2006). All of it is done with error bounds, so that no hit is lost that the exact test finds.
 
-use super::bundle::{Meeting, rounding};
+use super::bundle::rounding;
 use super::frustum::{Frustum, Line};
-use crate::geometry::Aabb;
+use crate::geometry::{Aabb, Common};
 use crate::primitives::{Balls, Intersect, TriangleMesh};
 
 /// Primitives of which a frustum can tell that none of its rays hits them.
@@ -108,7 +108,7 @@ impl Frustum {
     /// How far rays that should meet in the apex pass it: offsets and slopes then vary
     /// independently, while a corner ray joins one of each.
     fn spread(&self) -> f64 {
-        if let Meeting::Direction(_) = self.bundle.meeting {
+        if let Common::Direction(_) = self.bundle.common {
             return 0.0;
         }
         let spread = |axis: usize| self.high[axis].offset - self.low[axis].offset;

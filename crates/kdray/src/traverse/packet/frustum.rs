@@ -5,10 +5,10 @@
 //! parallel rays the rectangle is one of offsets, and the frustum a prism.
 
 use super::bound::Bound;
-use super::bundle::{Bundle, Meeting, rounding};
+use super::bundle::{Bundle, rounding};
 use super::cull::Cull;
 use super::rays::PacketRay;
-use crate::geometry::{Interval, Ray, t_above, t_below};
+use crate::geometry::{Common, Interval, Ray, t_above, t_below};
 
 /// A frustum around rays that come from one point, go to one point, or are parallel.
 ///
@@ -134,10 +134,10 @@ impl Bound for Frustum {
     }
 
     fn lower_is_near(&self, axis: usize, split: f64) -> bool {
-        match self.bundle.meeting {
-            Meeting::Direction(_) => self.low[axis].slope > 0.0,
+        match self.bundle.common {
+            Common::Direction(_) => self.low[axis].slope > 0.0,
             // The near child is the side that holds the apex.
-            Meeting::Origin(_) | Meeting::End(_) => split > self.bundle.base[axis],
+            Common::Origin(_) | Common::Target(_) => split > self.bundle.base[axis],
         }
     }
 
