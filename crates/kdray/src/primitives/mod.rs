@@ -5,7 +5,7 @@ mod hit;
 mod hit_arrays;
 mod mesh;
 mod segments;
-mod triangle;
+pub(crate) mod triangle;
 
 pub use ball::{BallError, Balls};
 pub use hit::{Hit, HitRule, Side};

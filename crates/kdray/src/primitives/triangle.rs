@@ -16,17 +16,17 @@ const ROUNDING: f64 = f64::EPSILON / 2.0;
 /// cross product (twice) and in the dot product (three times): at most 7 roundings on terms that
 /// sum to 2·D·|e2|·|s|, so 14. V likewise; den with |e1| in place of |s|. W = den − U − V gathers
 /// three of these and two more roundings on each: at most 3·18 = 54.
-const EDGE_ERROR: f64 = 64.0 * ROUNDING;
+pub(crate) const EDGE_ERROR: f64 = 64.0 * ROUNDING;
 
 /// A bound for the error of den and T, in units of the sum of the absolute values of their terms:
 /// 8 roundings.
-const TERM_ERROR: f64 = 8.0 * ROUNDING;
+pub(crate) const TERM_ERROR: f64 = 8.0 * ROUNDING;
 
 /// The largest relative error at which den and T are good; that of t is below 2^-39 then.
-const RELATIVE_ERROR: f64 = 1.0 / (1u64 << 41) as f64;
+pub(crate) const RELATIVE_ERROR: f64 = 1.0 / (1u64 << 41) as f64;
 
 /// The largest error of an edge function, relative to den, at which u and v are good.
-const BARYCENTRIC_ERROR: f64 = 1.0 / (1u64 << 31) as f64;
+pub(crate) const BARYCENTRIC_ERROR: f64 = 1.0 / (1u64 << 31) as f64;
 
 /// The hit of `ray` on one triangle, if it counts by `rule` and its t lies in the ray's interval.
 ///

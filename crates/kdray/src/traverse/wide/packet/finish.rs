@@ -8,6 +8,7 @@
 use super::rays::{MOST_VECTORS, NONE, PacketRays};
 use super::search::Found;
 use crate::geometry::{Common, RayPacket};
+use crate::primitives::triangle::{BARYCENTRIC_ERROR, EDGE_ERROR, RELATIVE_ERROR, TERM_ERROR};
 use crate::primitives::{HitArrays, HitRule, intersect_triangle};
 use crate::simd::Lanes;
 use fearless_simd::prelude::*;
@@ -15,6 +16,15 @@ use fearless_simd::{f64x8, mask64x8, u32x8};
 use glam::DVec3;
 
 type Vector<S> = [f64x8<S>; 3];
+
+/// den is good, and u and v are, from so much on of D · ē · M, and of D · ē²: what the scalar test asks by
+/// its first and fastest bounds.
+const LEAST_BY_DISTANCE: f64 = EDGE_ERROR / BARYCENTRIC_ERROR;
+const LEAST_BY_EDGE: f64 = 2.0 * TERM_ERROR / RELATIVE_ERROR;
+
+/// T is good from so much on of ē² · M, and far from underflow.
+const LEAST_VOLUME: f64 = 6.0 * TERM_ERROR / RELATIVE_ERROR;
+const FAR_FROM_UNDERFLOW: f64 = 1e-270;
 
 /// Computes the hits of `count` rays from `first` on, on the triangles that were found; `seen` are those
 /// of rays with a common origin, and empty otherwise.
@@ -173,11 +183,9 @@ impl<S: Lanes> Eight<S> {
         let [dx, dy, dz] = [d[0].abs(), d[1].abs(), d[2].abs()];
         let d_scale = (dx + dy + dz) * edges;
         let s_scale = edges.max(largest(s));
-        let least_den = (s_scale * (EDGE_ERROR / BARYCENTRIC_ERROR))
-            .max(edges * (2.0 * TERM_ERROR / RELATIVE_ERROR))
-            * d_scale;
+        let least_den = (s_scale * LEAST_BY_DISTANCE).max(edges * LEAST_BY_EDGE) * d_scale;
         let terms = (s_scale * edges) * edges;
-        let least_volume = terms * (6.0 * TERM_ERROR / RELATIVE_ERROR) + 1e-270;
+        let least_volume = terms * LEAST_VOLUME + FAR_FROM_UNDERFLOW;
         let good = least_den.simd_le(den.abs()) & least_volume.simd_le(volume.abs());
         Numbers::of(simd, [volume, u, v, den], good)
     }
@@ -204,11 +212,9 @@ impl Seen {
         let volume = q.dot(e2);
         let edges = e1.abs().max(e2.abs()).max_element();
         let s_scale = edges.max(s.abs().max_element());
-        let least_den = (s_scale * (EDGE_ERROR / BARYCENTRIC_ERROR))
-            .max(edges * (2.0 * TERM_ERROR / RELATIVE_ERROR))
-            * edges;
+        let least_den = (s_scale * LEAST_BY_DISTANCE).max(edges * LEAST_BY_EDGE) * edges;
         let terms = s_scale * edges * edges;
-        let is_good = terms * (6.0 * TERM_ERROR / RELATIVE_ERROR) + 1e-270 <= volume.abs();
+        let is_good = terms * LEAST_VOLUME + FAR_FROM_UNDERFLOW <= volume.abs();
         let volume = if is_good { volume } else { 0.0 };
         let [e1, e2, s, q] = [e1, e2, s, q].map(Into::into);
         Self { e1, e2, s, q, volume, least_den }
@@ -258,12 +264,6 @@ impl<S: Lanes> Numbers<S> {
         }
     }
 }
-
-const ROUNDING: f64 = f64::EPSILON / 2.0;
-const EDGE_ERROR: f64 = 64.0 * ROUNDING;
-const TERM_ERROR: f64 = 8.0 * ROUNDING;
-const RELATIVE_ERROR: f64 = 1.0 / (1u64 << 41) as f64;
-const BARYCENTRIC_ERROR: f64 = 1.0 / (1u64 << 31) as f64;
 
 #[inline(always)]
 fn difference<S: Lanes>(a: Vector<S>, b: Vector<S>) -> Vector<S> {
