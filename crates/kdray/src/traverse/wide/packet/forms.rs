@@ -67,8 +67,7 @@ impl<S: Lanes> Forms<S> {
     /// The lanes with triangles that rays within bounds may hit.
     #[inline(always)]
     pub(super) fn within(&self, simd: S, bounds: &Bounds) -> Within {
-        let splat = |[a, b]: [f32; 2]| [f32x8::splat(simd, a), f32x8::splat(simd, b)];
-        let (x, y) = (splat(bounds.x), splat(bounds.y));
+        let (x, y) = bounds.in_all_lanes(simd);
         let [a, b, c] = &self.edges;
         let inside = greatest(a, x, y).min(greatest(b, x, y)).min(greatest(c, x, y));
         let depth = greatest(&self.depth, x, y) + self.depth_error;
@@ -83,17 +82,12 @@ impl<S: Lanes> Forms<S> {
     /// another one surely negative: whichever sign the triangle has, they miss it.
     #[inline(always)]
     pub(super) fn mixed(&self, simd: S, bounds: &Bounds) -> u32 {
-        let splat = |[a, b]: [f32; 2]| [f32x8::splat(simd, a), f32x8::splat(simd, b)];
-        let (x, y) = (splat(bounds.x), splat(bounds.y));
+        let (x, y) = bounds.in_all_lanes(simd);
+        let negative = |form: &Form<S>| greatest(&[-form[0], -form[1], -form[2]], x, y);
         let [a, b, c] = &self.edges;
-        let negative = |form: &Form<S>| [-form[0], -form[1], -form[2]];
         let most = greatest(a, x, y).min(greatest(b, x, y)).min(greatest(c, x, y));
         // Minus the greatest of what the forms are at the least.
-        let least = greatest(&negative(a), x, y).min(greatest(&negative(b), x, y)).min(greatest(
-            &negative(c),
-            x,
-            y,
-        ));
+        let least = negative(a).min(negative(b)).min(negative(c));
         let mixed = most.simd_lt(-self.edge_error) & least.simd_lt(-self.edge_error);
         mixed.to_bitmask() as u32
     }

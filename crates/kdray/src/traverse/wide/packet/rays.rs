@@ -4,7 +4,7 @@ use crate::simd::Lanes;
 use fearless_simd::prelude::*;
 use fearless_simd::{f32x8, mask32x8};
 
-/// Most rays of a packet: 16 x 16 pixels.
+/// Most rays of a packet: two tiles of 16 x 16 pixels, and as many sets as a vector has lanes.
 pub(super) const MOST_RAYS: usize = 512;
 
 /// Most vectors of eight rays.
@@ -62,6 +62,15 @@ pub(super) struct Bounds {
     /// The greatest `near_high` and the least `near_low`.
     pub(super) near: f32,
     pub(super) least_near: f32,
+}
+
+impl Bounds {
+    /// The bounds of x and y.
+    #[inline(always)]
+    pub(super) fn in_all_lanes<S: Lanes>(&self, simd: S) -> ([f32x8<S>; 2], [f32x8<S>; 2]) {
+        let all = |[a, b]: [f32; 2]| [f32x8::splat(simd, a), f32x8::splat(simd, b)];
+        (all(self.x), all(self.y))
+    }
 }
 
 impl Set {
