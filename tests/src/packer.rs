@@ -1,9 +1,8 @@
 //! Packets of rays that are hard on purpose. All are seeded: the same on every run.
 
 use crate::owned_packet::OwnedPacket;
-use crate::rays::{Archer, random, rounded};
+use crate::rays::{Archer, random, rounded, splits};
 use kdray::geometry::{Common, tile_order};
-use kdray::tree::NodeKind;
 use kdray::{KdTree, Ray, TriangleMesh};
 use rand::RngExt;
 use rand::seq::IndexedRandom;
@@ -64,11 +63,7 @@ impl<'a> Packer<'a> {
 
     /// Packets with rays in the split planes of `tree`, and in two or more of them at once.
     pub fn in_split_planes(&mut self, tree: &KdTree<3>, count: usize) -> Vec<OwnedPacket> {
-        let split = |kind: NodeKind| match kind {
-            NodeKind::Inner { axis, split, .. } => Some((axis, f64::from(split))),
-            NodeKind::Leaf { .. } => None,
-        };
-        let splits: Vec<_> = tree.nodes().iter().filter_map(|node| split(node.kind())).collect();
+        let splits = splits(tree);
         if splits.is_empty() {
             return Vec::new();
         }

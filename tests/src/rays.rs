@@ -139,11 +139,7 @@ impl<'a, S: Subject<K>, const K: usize> Archer<'a, S, K> {
 
     /// Rays in the split planes of `tree`, and in two or more of them at once.
     pub fn in_split_planes(&mut self, tree: &KdTree<K>, count: usize) -> Vec<Ray<K>> {
-        let split = |kind: NodeKind| match kind {
-            NodeKind::Inner { axis, split, .. } => Some((axis, f64::from(split))),
-            NodeKind::Leaf { .. } => None,
-        };
-        let splits: Vec<_> = tree.nodes().iter().filter_map(|node| split(node.kind())).collect();
+        let splits = splits(tree);
         if splits.is_empty() {
             return Vec::new();
         }
@@ -199,4 +195,13 @@ impl<'a, S: Subject<K>, const K: usize> Archer<'a, S, K> {
 /// The nearest finite f32.
 pub(crate) fn rounded(x: f64) -> f64 {
     f64::from(x.clamp(f32::MIN.into(), f32::MAX.into()) as f32)
+}
+
+/// The split planes of a tree: their axes and places.
+pub(crate) fn splits<const K: usize>(tree: &KdTree<K>) -> Vec<(usize, f64)> {
+    let split = |kind: NodeKind| match kind {
+        NodeKind::Inner { axis, split, .. } => Some((axis, f64::from(split))),
+        NodeKind::Leaf { .. } => None,
+    };
+    tree.nodes().iter().filter_map(|node| split(node.kind())).collect()
 }
