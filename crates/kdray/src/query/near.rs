@@ -27,8 +27,8 @@ impl Scene {
     }
 
     /// [`any_hit`](Self::any_hit) for a ray that starts at the hit that `hint` came with. The same answer
-    /// as without, sooner: short rays and shadow rays take a fifth less time one by one, and a twentieth
-    /// less in batches. (By [`Arithmetic::Float`], of rays that it may get wrong, either answer.)
+    /// as without, sooner: short rays and shadow rays take a fifth less time one by one; in batches it
+    /// hardly matters. (By [`Arithmetic::Float`], of rays that it may get wrong, either answer.)
     ///
     /// ```
     /// # use kdray::{BuildOptions, Ray, Scene, TriangleMesh};
@@ -56,7 +56,8 @@ impl Scene {
     }
 
     /// [`any_hit_near`](Self::any_hit_near) of each ray, on this thread: `found[i]` is that of `rays[i]`
-    /// near `hints[i]`. Allocates nothing.
+    /// near `hints[i]`. Allocates nothing, unless
+    /// called within another batch.
     ///
     /// # Panics
     /// If the slices differ in length.
