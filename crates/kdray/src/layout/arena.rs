@@ -182,14 +182,6 @@ impl Arena {
         must_cast_ref(lines)
     }
 
-    /// Reads a number from each of the first lines that a link leads to, so that the memory is asked for
-    /// all of them at once, and before they are needed. What the numbers sum to means nothing.
-    #[inline(always)]
-    pub(super) fn touch(&self, link: Link) -> u32 {
-        let lines = self.lines[link.line()..].iter().take(BLOCK_LINES);
-        lines.fold(0, |sum, Line([first, ..])| sum.wrapping_add(*first))
-    }
-
     /// A block of the leaf that a link leads to.
     #[inline(always)]
     pub(super) fn block(&self, link: Link, index: usize) -> &TriangleBlock {

@@ -107,12 +107,6 @@ impl WideTree {
         self.arena.block(link, index)
     }
 
-    /// Asks the memory for what a link leads to; the result means nothing.
-    #[inline(always)]
-    pub(crate) fn touch(&self, link: Link) -> u32 {
-        self.arena.touch(link)
-    }
-
     /// The home of the node to begin at.
     #[inline(always)]
     pub(crate) fn home(&self, hint: Hint) -> &Home {

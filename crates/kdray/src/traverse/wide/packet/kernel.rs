@@ -132,7 +132,6 @@ impl<const ANY: bool> Packets<'_, ANY> {
         let mut next = Link::ROOT;
         let mut z_far = projection.z_above(search.bounds.low);
         let mut is_given_up = false;
-        let mut touched = 0_u32;
         while next != Link::END {
             if next.is_leaf() {
                 for index in 0..next.block_count() {
@@ -154,13 +153,9 @@ impl<const ANY: bool> Packets<'_, ANY> {
                 let (met, lists) = simd.pack(met, node.order(octant), Lists { t: z, links });
                 let count = met.count_ones() as usize;
                 stack.push_lists(&lists, count, true);
-                for &link in &lists.links.as_array()[..count.min(8)] {
-                    touched = touched.wrapping_add(self.tree.touch(Link::from_bits(link)));
-                }
             }
             next = stack.pop_up_to(z_far);
         }
-        std::hint::black_box(touched);
         let work = search.work;
         if is_given_up {
             self.left.truncate(left_before);
