@@ -94,27 +94,19 @@ impl Stack {
     /// Takes the next; if the search shortens the ray, the next whose box it enters up to `t_far`.
     #[inline(always)]
     pub(super) fn pop<'a, Q: Search<'a>>(&mut self, t_far: f32) -> Link {
-        if Q::SHORTENS { self.pop_up_to(t_far) } else { self.pop_last() }
+        self.pop_up_to(t_far, Q::SHORTENS)
     }
 
-    /// Takes the next.
-    #[inline(always)]
-    fn pop_last(&mut self) -> Link {
-        let (_, link) = self.top();
-        self.len = self.len.wrapping_sub(1);
-        link
-    }
-
-    /// Takes the next that is entered up to `t_far`.
+    /// Takes the next; if `with_t`, the next that is entered up to `t_far`.
     ///
     /// Those that wait below it cannot be dropped with one that begins behind `t_far`: boxes are
     /// wider than cells, so that a ray may meet the box of a cell that it passes by.
     #[inline(always)]
-    pub(super) fn pop_up_to(&mut self, t_far: f32) -> Link {
+    pub(super) fn pop_up_to(&mut self, t_far: f32, with_t: bool) -> Link {
         loop {
             let (t, link) = self.top();
             self.len = self.len.wrapping_sub(1);
-            if t <= t_far {
+            if !with_t || t <= t_far {
                 return link;
             }
         }

@@ -154,7 +154,7 @@ impl<const ANY: bool> Packets<'_, ANY> {
                 let count = met.count_ones() as usize;
                 stack.push_lists(&lists, count, true);
             }
-            next = stack.pop_up_to(z_far);
+            next = stack.pop_up_to(z_far, true);
         }
         let work = search.work;
         if is_given_up {
