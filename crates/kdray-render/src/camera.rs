@@ -1,6 +1,7 @@
 //! From a pixel to a ray, and a camera for scenes without one.
 
 use glam::DVec3;
+use kdray::geometry::Common;
 use kdray::{Aabb, Ray};
 use kdray_scene::{Camera, Projection};
 use thiserror::Error;
@@ -82,6 +83,14 @@ impl View {
             return Ray::new(self.eye + offset, self.forward);
         }
         Ray::new(self.eye, (self.forward + offset).normalize())
+    }
+
+    /// What all rays share: the eye, or the direction of an orthographic camera.
+    pub fn common(&self) -> Common {
+        match self.orthographic {
+            true => Common::Direction(self.forward.into()),
+            false => Common::Origin(self.eye.into()),
+        }
     }
 }
 

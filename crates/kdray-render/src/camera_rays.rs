@@ -1,9 +1,11 @@
 //! Rays through the camera: where they go, and many of them, gathered to be answered together.
 
+use crate::bundle::Bundle;
 use crate::camera::View;
 use crate::options::RenderOptions;
 use crate::sampling::Sampler;
-use kdray::{Hit, Ray, Scene};
+use kdray::geometry::Common;
+use kdray::{Hit, PacketWork, Ray, Scene};
 
 /// What the random numbers of a camera ray are for.
 const LENS: u32 = 0x200;
@@ -17,6 +19,11 @@ pub(crate) struct Lens<'a> {
 impl<'a> Lens<'a> {
     pub(crate) fn new(view: &'a View, options: &'a RenderOptions) -> Self {
         Self { view, options }
+    }
+
+    /// What all rays share.
+    pub(crate) fn common(&self) -> Common {
+        self.view.common()
     }
 
     /// The ray of that index through a pixel, with its random numbers.
@@ -46,6 +53,7 @@ pub(crate) struct CameraRays {
     rays: Vec<Ray>,
     samplers: Vec<Sampler>,
     hits: Vec<Option<Hit>>,
+    bundle: Bundle,
 }
 
 impl CameraRays {
@@ -70,10 +78,18 @@ impl CameraRays {
         &self.rays
     }
 
-    /// Finds the closest hits of all rays.
+    /// Finds the closest hits of all rays, one by one.
     pub(crate) fn find_hits(&mut self, scene: &Scene) {
         self.hits.resize(self.rays.len(), None);
         scene.closest_hits(&self.rays, &mut self.hits);
+    }
+
+    /// Finds the closest hits of all rays, which share `common`, in packets. Gives what it took.
+    pub(crate) fn find_hits_in_packets(&mut self, scene: &Scene, common: Common) -> PacketWork {
+        self.bundle.fill(common, self.rays.iter());
+        let (hits, work) = self.bundle.closest_hits(scene, f64::INFINITY);
+        self.hits.extend((0..self.rays.len()).map(|index| hits.get(index)));
+        work
     }
 
     /// Each ray with its closest hit, which has been found, and its random numbers.

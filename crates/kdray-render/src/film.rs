@@ -16,6 +16,8 @@ pub(crate) struct PixelValues {
     pub(crate) occlusion: f32,
     pub(crate) nodes: f32,
     pub(crate) primitives: f32,
+    pub(crate) packet_cost: f32,
+    pub(crate) packet_size: f32,
 }
 
 /// The layers of a picture in the making.
@@ -32,10 +34,11 @@ const NORMAL: Plan = ("normal", &["X", "Y", "Z"]);
 const PRIMITIVE: Plan = ("primitive", &["id"]);
 const OCCLUSION: Plan = ("occlusion", &["V"]);
 const COST: Plan = ("cost", &["nodes", "primitives"]);
+const PACKET: Plan = ("packet", &["cost", "size"]);
 
 fn plans(options: &RenderOptions) -> Vec<Plan> {
     if options.all_layers {
-        return vec![COLOR, DEPTH, NORMAL, PRIMITIVE, OCCLUSION, COST];
+        return vec![COLOR, DEPTH, NORMAL, PRIMITIVE, OCCLUSION, COST, PACKET];
     }
     vec![match options.picture {
         PictureKind::Shaded => COLOR,
@@ -44,6 +47,7 @@ fn plans(options: &RenderOptions) -> Vec<Plan> {
         PictureKind::PrimitiveId => PRIMITIVE,
         PictureKind::AmbientOcclusion => OCCLUSION,
         PictureKind::Cost | PictureKind::CostNodes | PictureKind::CostPrimitives => COST,
+        PictureKind::PacketCost | PictureKind::PacketSize => PACKET,
     }]
 }
 
@@ -90,6 +94,7 @@ impl Film {
                 "normal" => &values.normal,
                 "occlusion" => &[values.occlusion],
                 "cost" => &[values.nodes, values.primitives],
+                "packet" => &[values.packet_cost, values.packet_size],
                 _ => &[],
             };
             for (i, channel) in layer.channels.iter_mut().enumerate() {

@@ -2,6 +2,7 @@
 
 use glam::{DVec3, Vec3};
 use kdray::Aabb;
+use kdray::geometry::Common;
 use kdray_scene::{Camera, Light};
 use std::f64::consts::PI;
 use thiserror::Error;
@@ -146,7 +147,16 @@ impl Lamp {
 
     /// Whether its light comes from one point only, so that one shadow ray tells all.
     pub(crate) fn is_sharp(&self) -> bool {
-        !matches!(self, Self::Rectangle(_))
+        self.common().is_some()
+    }
+
+    /// What all rays to the lamp share, if that is anything.
+    pub(crate) fn common(&self) -> Option<Common> {
+        match self {
+            Self::Point { position, .. } => Some(Common::Target(position.to_array())),
+            Self::Directional { to_light, .. } => Some(Common::Direction(to_light.to_array())),
+            Self::Rectangle(_) => None,
+        }
     }
 
     /// What arrives at `point`; from a rectangle, at its point (u, v) as if all came from there.

@@ -22,6 +22,12 @@ pub enum PictureKind {
     CostNodes,
     /// Primitives tested against a ray.
     CostPrimitives,
+    /// What camera rays cost in packets: node decisions, triangles set up and tests of eight rays, by
+    /// the number of rays. Of rays that are traced one by one only what was done for them in vain.
+    PacketCost,
+    /// How many camera rays go together: rays by the number of packets, of which a ray that is traced
+    /// alone is one.
+    PacketSize,
 }
 
 /// What rays see that hit nothing. Colours are linear RGB.
@@ -52,6 +58,9 @@ pub struct RenderOptions {
     pub max_bounces: u32,
     /// What to compute, and what a PNG shows.
     pub picture: PictureKind,
+    /// Traces rays in packets that share an origin, a direction or a target: those from the camera,
+    /// those to lamps without size. The picture is the same, only time differs.
+    pub packets: bool,
     /// Computes every [`PictureKind`]'s layers, for OpenEXR.
     pub all_layers: bool,
     /// Chooses the random numbers: the same seed gives the same picture.
@@ -81,6 +90,7 @@ impl Default for RenderOptions {
             samples: 16,
             max_bounces: 8,
             picture: PictureKind::Shaded,
+            packets: true,
             all_layers: false,
             seed: 0,
             background: Background::default(),
@@ -115,7 +125,7 @@ impl Background {
 
 impl PictureKind {
     /// Every kind once.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 10] = [
         Self::Shaded,
         Self::Depth,
         Self::Normal,
@@ -124,5 +134,7 @@ impl PictureKind {
         Self::Cost,
         Self::CostNodes,
         Self::CostPrimitives,
+        Self::PacketCost,
+        Self::PacketSize,
     ];
 }

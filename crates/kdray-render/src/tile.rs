@@ -22,6 +22,12 @@ const OCCLUSION_SHARE: f64 = 0.1;
 /// Rays that are gathered at once: enough to keep a batch busy, few enough for the caches.
 const GATHERED: usize = 1024;
 
+/// Camera rays that are gathered at once for packets: a large one.
+const GATHERED_IN_PACKETS: usize = 512;
+
+/// Rays that are gathered at once at the most, light rays among them.
+const MOST_GATHERED: usize = 1 << 16;
+
 /// Computes the pixels of a tile.
 pub(crate) struct TileTracer<'a> {
     tracer: Tracer<'a>,
@@ -43,7 +49,11 @@ impl<'a> TileTracer<'a> {
         let distance = options.occlusion_distance.unwrap_or(OCCLUSION_SHARE * diagonal);
         let tracer = Tracer::new(world, lamps, options, distance);
         let to_lamps: usize = lamps.iter().map(|lamp| tracer.lamp_rays(lamp, 0) as usize).sum();
-        let portion = GATHERED / (1 + to_lamps + occlusion_rays(options) as usize);
+        let rays = 1 + to_lamps + occlusion_rays(options) as usize;
+        let portion = match options.packets {
+            true => GATHERED_IN_PACKETS.min(MOST_GATHERED / rays),
+            false => GATHERED / rays,
+        };
         let (camera_rays, lens) = (CameraRays::default(), Lens::new(view, options));
         Self { tracer, camera_rays, lens, options, portion: portion.max(1) }
     }
@@ -77,6 +87,12 @@ impl<'a> TileTracer<'a> {
             let means = self.means(pixels, Self::push_costs);
             for (values, [nodes, primitives]) in values.iter_mut().zip(means) {
                 (values.nodes, values.primitives) = (nodes, primitives);
+            }
+        }
+        if wanted(&[PictureKind::PacketCost, PictureKind::PacketSize]) {
+            let means = self.means(pixels, Self::push_packet_work);
+            for (values, [cost, size]) in values.iter_mut().zip(means) {
+                (values.packet_cost, values.packet_size) = (cost, size);
             }
         }
         values
@@ -158,10 +174,26 @@ impl<'a> TileTracer<'a> {
         }));
     }
 
+    /// What it takes to find the first hits in packets: the same for all rays of a portion.
+    fn push_packet_work(&mut self, values: &mut Vec<[f32; 2]>) {
+        let rays = self.camera_rays.len();
+        self.tracer.count_rays(rays);
+        let scene = self.tracer.world.scene();
+        let work = self.camera_rays.find_hits_in_packets(scene, self.lens.common());
+        let cost = (work.nodes + work.triangles + work.tests) as f32 / rays as f32;
+        let size = rays as f32 / (work.packets + work.left) as f32;
+        values.extend(std::iter::repeat_n([cost, size], rays));
+    }
+
     /// Finds the closest hits of the camera rays.
     fn find_hits(&mut self) {
         self.tracer.count_rays(self.camera_rays.len());
-        self.camera_rays.find_hits(self.tracer.world.scene());
+        let scene = self.tracer.world.scene();
+        if self.options.packets {
+            self.camera_rays.find_hits_in_packets(scene, self.lens.common());
+        } else {
+            self.camera_rays.find_hits(scene);
+        }
     }
 }
 

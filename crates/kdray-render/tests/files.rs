@@ -32,6 +32,8 @@ fn files_hold_what_was_computed() {
         "normal.Y",
         "normal.Z",
         "occlusion.V",
+        "packet.cost",
+        "packet.size",
         "primitive.id",
     ];
     assert_eq!(names, expected);

@@ -4,12 +4,12 @@
 
 mod support;
 
-use kdray::{BuildOptions, Strategy};
+use kdray::{BuildOptions, InstructionSet, Strategy};
 use kdray_render::{
     CameraError, LightError, Picture, PictureKind, PngDepth, RenderError, RenderOptions,
     WorldError, render_with_progress,
 };
-use kdray_scene::{Light, Model};
+use kdray_scene::{Camera, Light, Model, Projection};
 use std::path::Path;
 use support::*;
 
@@ -22,12 +22,55 @@ fn any_number_of_threads_gives_the_same_picture() {
         pool.install(|| shoot(&world, &camera, &lights, &options))
     };
     let one = with_threads(1);
-    assert_eq!(one.layers.len(), 6);
+    assert_eq!(one.layers.len(), 7);
     for threads in [2, 3] {
         assert!(with_threads(threads) == one, "{threads} threads");
     }
     let other_seed = RenderOptions { seed: 1, ..options.clone() };
     assert!(shoot(&world, &camera, &lights, &other_seed) != one, "the seed matters");
+}
+
+#[test]
+fn packets_change_no_picture() {
+    let (with_glass, camera, mut lights) = still_life();
+    let mut opaque = Model { materials: vec![lambert(0.8)], ..Model::default() };
+    add_floor(&mut opaque, 4.0, 0.0, 0);
+    add_box(&mut opaque, [-1.0, 0.5, -1.0], [0.5, 1.5, 1.0], 0);
+    let all = RenderOptions { all_layers: true, ..small(PictureKind::Shaded) };
+    let one_by_one = RenderOptions { packets: false, ..all.clone() };
+    let projection = Projection::Orthographic { height: 3.0 };
+    let orthographic = Camera { projection, ..camera.clone() };
+    lights.push(Light::Directional { direction: [0.3, -1.0, 0.2], irradiance: [0.5; 3] });
+    for world in [with_glass, world(opaque)] {
+        for camera in [&camera, &orthographic] {
+            // Of packets there is a layer as well, whose rays go together in other numbers.
+            let [picture, expected] = [&all, &one_by_one].map(|options| {
+                let mut layers = shoot(&world, camera, &lights, options).layers;
+                layers.retain(|layer| layer.name != "packet");
+                layers
+            });
+            assert_eq!(picture.len(), 6);
+            assert!(picture == expected);
+        }
+    }
+}
+
+/// Plain Rust answers all rays one by one.
+fn has_no_packets() -> bool {
+    InstructionSet::available().len() == 1
+}
+
+#[test]
+fn packets_are_larger_where_more_rays_meet_the_same() {
+    let mut model = Model { materials: vec![lambert(0.8)], ..Model::default() };
+    add_floor(&mut model, 100.0, 0.0, 0);
+    let (_, camera, lights) = still_life();
+    let options = small(PictureKind::PacketSize);
+    let picture = shoot(&world(model), &camera, &lights, &options);
+    let [sizes, costs] = ["size", "cost"].map(|name| picture.floats("packet", name).unwrap());
+    let expected = if has_no_packets() { 1.0 } else { 64.0 };
+    assert!(sizes.iter().all(|&size| size >= expected), "{sizes:?}");
+    assert!(costs.iter().all(|&cost| cost < 1.0), "one decision is for many rays");
 }
 
 #[test]
@@ -87,6 +130,10 @@ fn the_still_life_looks_as_it_did() {
     // Cost is that of the lecture's traversal, and looked at in its tree.
     let (lecture, ..) = still_life_in(&BuildOptions::for_strategy(Strategy::Sah));
     for kind in PictureKind::ALL {
+        let of_packets = [PictureKind::PacketCost, PictureKind::PacketSize];
+        if of_packets.contains(&kind) && has_no_packets() {
+            continue;
+        }
         let of_cost = [PictureKind::Cost, PictureKind::CostNodes, PictureKind::CostPrimitives];
         let world = if of_cost.contains(&kind) { &lecture } else { &world };
         let picture = shoot(world, &camera, &lights, &small(kind));

@@ -71,6 +71,9 @@ struct QualityArgs {
     /// Chooses the random numbers: the same seed gives the same picture
     #[arg(long, value_name = "N", default_value_t = RenderOptions::default().seed)]
     seed: u64,
+    /// Trace all rays one by one: the same picture, to compare the time
+    #[arg(long)]
+    no_packets: bool,
     /// The colour behind everything, linear RGB; without it a sky
     #[arg(long, value_name = "R,G,B", value_parser = color)]
     background: Option<[f32; 3]>,
@@ -111,6 +114,10 @@ enum Shown {
     CostNodes,
     /// Triangles tested
     CostPrimitives,
+    /// Work for packets of camera rays, by the number of rays
+    PacketCost,
+    /// How many camera rays go together in packets
+    PacketSize,
 }
 
 /// The formats of pictures.
@@ -205,6 +212,7 @@ fn options(args: &Args) -> RenderOptions {
         samples: quality.samples,
         max_bounces: quality.bounces,
         picture: quality.picture.kind(),
+        packets: !quality.no_packets,
         all_layers: quality.layers,
         seed: quality.seed,
         background: quality.background.map_or(default.background, Background::Color),
@@ -244,6 +252,8 @@ impl Shown {
             Self::Cost => PictureKind::Cost,
             Self::CostNodes => PictureKind::CostNodes,
             Self::CostPrimitives => PictureKind::CostPrimitives,
+            Self::PacketCost => PictureKind::PacketCost,
+            Self::PacketSize => PictureKind::PacketSize,
         }
     }
 }

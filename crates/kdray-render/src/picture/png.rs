@@ -70,10 +70,16 @@ impl Picture {
             PictureKind::Normal => self.draw_normal(&mut canvas),
             PictureKind::PrimitiveId => self.draw_ids(&mut canvas),
             PictureKind::AmbientOcclusion => self.draw_occlusion(&mut canvas),
-            PictureKind::Cost => self.draw_cost(&mut canvas, "nodes + triangles", [1.0, 1.0]),
-            PictureKind::CostNodes => self.draw_cost(&mut canvas, "nodes visited", [1.0, 0.0]),
+            PictureKind::Cost => self.draw_sum(&mut canvas, "nodes + triangles"),
+            PictureKind::CostNodes => self.draw_heat(&mut canvas, "nodes visited", "cost", "nodes"),
             PictureKind::CostPrimitives => {
-                self.draw_cost(&mut canvas, "triangles tested", [0.0, 1.0])
+                self.draw_heat(&mut canvas, "triangles tested", "cost", "primitives")
+            }
+            PictureKind::PacketCost => {
+                self.draw_heat(&mut canvas, "packet work per ray", "packet", "cost")
+            }
+            PictureKind::PacketSize => {
+                self.draw_heat(&mut canvas, "rays per packet", "packet", "size")
             }
         }
         .ok_or(WriteError::NotThere(self.kind))?;
@@ -130,13 +136,22 @@ impl Picture {
         Some(())
     }
 
-    fn draw_cost(&self, canvas: &mut Canvas, title: &str, weights: [f32; 2]) -> Option<()> {
+    fn draw_sum(&self, canvas: &mut Canvas, title: &str) -> Option<()> {
         let [nodes, primitives] = self.channels("cost", ["nodes", "primitives"])?;
-        let cost = |i: usize| weights[0] * nodes[i] + weights[1] * primitives[i];
-        let scale = HeatScale::new(self.indices().map(cost), self.heat_max);
-        self.fill(canvas, |i| opaque(scale.color(cost(i))));
-        legend::draw(canvas, title, &scale);
+        self.draw_scaled(canvas, title, |i| nodes[i] + primitives[i]);
         Some(())
+    }
+
+    fn draw_heat(&self, canvas: &mut Canvas, title: &str, layer: &str, name: &str) -> Option<()> {
+        let [values] = self.channels(layer, [name])?;
+        self.draw_scaled(canvas, title, |i| values[i]);
+        Some(())
+    }
+
+    fn draw_scaled(&self, canvas: &mut Canvas, title: &str, value: impl Fn(usize) -> f32) {
+        let scale = HeatScale::new(self.indices().map(&value), self.heat_max);
+        self.fill(canvas, |i| opaque(scale.color(value(i))));
+        legend::draw(canvas, title, &scale);
     }
 
     /// The pixels that were rendered.

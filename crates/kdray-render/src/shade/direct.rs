@@ -1,6 +1,7 @@
 //! Rays to the lamps and to the surroundings, and the light that comes along them.
 
 use super::gloss::Gloss;
+use super::light_rays::Toward;
 use super::shadow::SHORT_OF_LIGHT;
 use super::tracer::{Path, Tracer};
 use crate::light::{Arrival, Lamp, Source};
@@ -45,7 +46,7 @@ impl Tracer<'_> {
             for i in 0..count {
                 let arrival = lamp.arrival(surface.at.point.position(), sampler.point(i, count));
                 if let Some((ray, light)) = self.reflected(surface, diffuse, gloss, &arrival) {
-                    self.light_rays.push(ray, light, count);
+                    self.light_rays.push(ray, Toward::Lamp(index as u32), light, count);
                 }
             }
         }
@@ -102,7 +103,7 @@ impl Tracer<'_> {
             if direction.dot(surface.at.facing) > 0.0 {
                 let ray = surface.at.ray_along(direction);
                 let ray = ray.with_interval(0.0, self.occlusion_distance);
-                self.light_rays.push(ray, Vec3::ONE, 1);
+                self.light_rays.push(ray, Toward::Surroundings, Vec3::ONE, 1);
             }
         }
         Surroundings { rays: start..self.light_rays.len(), count }

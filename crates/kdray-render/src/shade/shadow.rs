@@ -1,34 +1,64 @@
 //! Shadow rays.
 
 use super::dielectric::{Boundary, attenuation};
+use crate::bundle::Bundle;
 use crate::surface::{Surface, opacity};
 use crate::world::{World, is_opaque};
 use glam::{DVec3, Vec3};
+use kdray::geometry::Common;
 use kdray::{Hit, Ray};
 
 /// The end of a shadow ray to a light at t = 1: short of it by 2^-32 of the distance, so that a
 /// lamp in the plane of a ceiling is not hidden by the ceiling.
 pub(crate) const SHORT_OF_LIGHT: f64 = 1.0 - 1.0 / (1u64 << 32) as f64;
 
-/// Gives `found` the index of each ray and the share of light that comes through along it, within
+/// Writes to `through` the share of light that comes through along each of the rays at `places`, within
 /// its interval. Opaque surfaces let nothing through, blended ones 1 − opacity; clear bodies let
 /// light pass straight on, as if it were not bent, less what they mirror and absorb.
-pub(super) fn transmittances(world: &World, rays: &[Ray], mut found: impl FnMut(usize, Vec3)) {
-    let scene = world.scene();
-    let each = rays;
+pub(super) fn one_by_one(world: &World, rays: &[Ray], places: &[usize], through: &mut [Vec3]) {
+    let each = places.iter().map(|&place| &rays[place]);
     if world.lets_light_through() {
-        scene.each_closest_hit(each, |index, first| {
-            found(index, first.map_or(Vec3::ONE, |hit| past(world, &rays[index], &hit)));
+        world.scene().each_closest_hit(each, |index, first| {
+            let place = places[index];
+            through[place] = past(world, &rays[place], first);
         });
     } else {
-        scene.each_any_hit(each, |index, is_hit| {
-            found(index, if is_hit { Vec3::ZERO } else { Vec3::ONE });
-        });
+        let mut found = |index: usize, is_hit| through[places[index]] = unless(is_hit);
+        world.scene().each_any_hit(each, &mut found);
     }
 }
 
+/// The same as [`one_by_one`], for rays that share `common` and their intervals.
+pub(super) fn in_packets(
+    world: &World,
+    common: Common,
+    bundle: &mut Bundle,
+    rays: &[Ray],
+    places: &[usize],
+    through: &mut [Vec3],
+) {
+    let Some(&first) = places.first() else { return };
+    let t_max = rays[first].interval.t_max;
+    bundle.fill(common, places.iter().map(|&place| &rays[place]));
+    if world.lets_light_through() {
+        let (hits, _) = bundle.closest_hits(world.scene(), t_max);
+        for (index, &place) in places.iter().enumerate() {
+            through[place] = past(world, &rays[place], hits.get(index));
+        }
+    } else {
+        let found = bundle.any_hits(world.scene(), t_max);
+        places.iter().zip(found).for_each(|(&place, &is_hit)| through[place] = unless(is_hit));
+    }
+}
+
+/// All light, unless something is in its way.
+fn unless(is_hit: bool) -> Vec3 {
+    if is_hit { Vec3::ZERO } else { Vec3::ONE }
+}
+
 /// The share that comes through along a ray whose closest hit is `first`.
-fn past(world: &World, ray: &Ray, first: &Hit) -> Vec3 {
+fn past(world: &World, ray: &Ray, first: Option<Hit>) -> Vec3 {
+    let Some(first) = first else { return Vec3::ONE };
     if is_opaque(world.material(first.primitive_id)) {
         return Vec3::ZERO;
     }

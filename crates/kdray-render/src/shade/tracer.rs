@@ -57,7 +57,8 @@ impl<'a> Tracer<'a> {
         options: &'a RenderOptions,
         occlusion_distance: f64,
     ) -> Self {
-        let (light_rays, firsts) = (LightRays::default(), Vec::new());
+        let light_rays = LightRays::new(options.packets.then_some(lamps));
+        let firsts = Vec::new();
         Self { world, lamps, options, occlusion_distance, light_rays, firsts, rays: 0 }
     }
 

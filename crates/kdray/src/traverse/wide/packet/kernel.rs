@@ -156,7 +156,7 @@ impl<const ANY: bool> Packets<'_, ANY> {
             }
             next = stack.pop_up_to(z_far, true);
         }
-        let work = search.work;
+        let work = PacketWork { packets: 1, ..search.work };
         if is_given_up {
             self.left.truncate(left_before);
             self.leave_open(range);

@@ -3,6 +3,8 @@
 /// What was done for packets.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PacketWork {
+    /// Packets that were bounded by a frustum, those that were given up as well.
+    pub packets: usize,
     /// Nodes whose children were tested against the bounding frustum.
     pub nodes: usize,
     /// Blocks of eight triangles that were set up.
@@ -30,6 +32,7 @@ impl PacketWork {
 
 impl std::ops::AddAssign for PacketWork {
     fn add_assign(&mut self, other: Self) {
+        self.packets += other.packets;
         self.nodes += other.nodes;
         self.blocks += other.blocks;
         self.triangles += other.triangles;
