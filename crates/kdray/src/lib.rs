@@ -22,7 +22,8 @@ pub use build::{BuildError, BuildOptions, BuildProgress, CostModel, Preset, Stra
 pub use geometry::{Aabb, Interval, Ray, RayError, RayPacket};
 pub use layout::Hint;
 pub use primitives::{Hit, MeshError, Side, TriangleMesh};
-pub use query::{Arithmetic, PacketWork, Scene, ShapeScene};
+pub use query::{Arithmetic, Instance, InstanceHit, InstancedScene};
+pub use query::{PacketWork, Scene, ShapeScene};
 pub use simd::InstructionSet;
 pub use tree::{KdTree, TreeStats};
 

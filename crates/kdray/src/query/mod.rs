@@ -2,6 +2,9 @@
 
 mod arithmetic;
 mod batch;
+mod instance;
+mod instance_hits;
+mod instanced_scene;
 mod near;
 mod packet;
 mod scene;
@@ -9,5 +12,8 @@ mod shape_scene;
 
 pub use crate::traverse::wide::packet::PacketWork;
 pub use arithmetic::Arithmetic;
+pub use instance::{Instance, InstanceError, InstanceHit};
+pub use instance_hits::InstanceHits;
+pub use instanced_scene::{InstancedScene, InstancedSceneError};
 pub use scene::Scene;
 pub use shape_scene::ShapeScene;

@@ -1,0 +1,170 @@
+//! Placed copies of scenes.
+
+use crate::geometry::Aabb;
+use crate::primitives::Hit;
+use glam::{DAffine3, DMat3, DVec3};
+use std::cmp::Ordering;
+use thiserror::Error;
+
+/// A copy of a geometry, placed in the world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Instance {
+    /// The index of the geometry among those of the scene.
+    pub geometry_id: u32,
+    /// From the geometry's space to the world: three rows of a 3 x 4 matrix. The world's point is the
+    /// sum of the first three columns times the geometry's coordinates, and the fourth.
+    pub to_world: [[f64; 4]; 3],
+    /// Who sees it: rays whose mask shares a bit with it.
+    pub mask: u32,
+}
+
+impl Instance {
+    /// The matrix that moves nothing.
+    pub const IDENTITY: [[f64; 4]; 3] =
+        [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
+
+    /// A copy of a geometry where it is, seen by all rays.
+    pub fn of(geometry_id: u32) -> Self {
+        Self { geometry_id, to_world: Self::IDENTITY, mask: u32::MAX }
+    }
+
+    /// The same copy, placed by a matrix (see [`to_world`](Self::to_world)).
+    #[must_use]
+    pub fn placed(self, to_world: [[f64; 4]; 3]) -> Self {
+        Self { to_world, ..self }
+    }
+
+    /// The same copy, moved by `offset` from where the geometry is.
+    #[must_use]
+    pub fn moved(self, offset: impl Into<[f64; 3]>) -> Self {
+        let mut to_world = Self::IDENTITY;
+        to_world.iter_mut().zip(offset.into()).for_each(|(row, offset)| row[3] = offset);
+        self.placed(to_world)
+    }
+
+    /// The same copy, seen by rays whose mask shares a bit with `mask`.
+    #[must_use]
+    pub fn masked(self, mask: u32) -> Self {
+        Self { mask, ..self }
+    }
+}
+
+/// Why scenes cannot be placed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum InstanceError {
+    /// An instance names a geometry that is not there.
+    #[error(
+        "instance {instance} is of geometry {geometry_id}, but there are only {geometries}; add the missing ones, or choose another"
+    )]
+    NoSuchGeometry {
+        /// The index of the instance.
+        instance: usize,
+        /// The geometry it names.
+        geometry_id: u32,
+        /// How many there are.
+        geometries: usize,
+    },
+    /// A matrix is not finite, or so nearly flat that f64 cannot turn it back: it stretches some direction
+    /// more than 2^26 times as much as another.
+    #[error("the matrix of instance {0} cannot be inverted; give one that flattens nothing")]
+    Singular(usize),
+    /// A copy lies beyond the largest f32.
+    #[error("instance {0} lies beyond the range of f32; place it nearer to the origin")]
+    OutOfRange(usize),
+    /// There are 2^30 instances or more.
+    #[error("there are {0} instances, but at most 1073741823 fit one tree; make fewer")]
+    TooMany(usize),
+}
+
+/// A hit on an instance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct InstanceHit {
+    /// The hit as on the geometry alone. Its t is that of the world's ray; its side is that of the
+    /// geometry, so that a mirrored copy of a closed mesh has its front outside as well.
+    pub hit: Hit,
+    /// The index of the instance.
+    pub instance_id: u32,
+    /// The index of its geometry.
+    pub geometry_id: u32,
+}
+
+impl InstanceHit {
+    /// The order of hits along a ray: by t, then by instance, then by primitive.
+    pub fn order(&self, other: &Self) -> Ordering {
+        // Adding zero makes -0 and 0 one.
+        let by_t = (self.hit.t + 0.0).total_cmp(&(other.hit.t + 0.0));
+        by_t.then(self.instance_id.cmp(&other.instance_id)).then(self.hit.order(&other.hit))
+    }
+
+    pub(super) fn precedes(&self, other: &Self) -> bool {
+        self.order(other) == Ordering::Less
+    }
+}
+
+/// An instance made ready for rays.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Placed {
+    pub(super) geometry_id: u32,
+    pub(super) mask: u32,
+    pub(super) to_object: DAffine3,
+}
+
+/// By how much of its largest coordinate the box of an instance is widened: far more than what rounding in a
+/// matrix that [`InstanceError::Singular`] lets pass may move a hit by, see [`InstancedScene`].
+///
+/// [`InstancedScene`]: super::InstancedScene
+const WIDENED: f64 = 1.0 / (1 << 20) as f64;
+
+/// The most that a matrix may stretch one direction in units of another.
+const MOST_STRETCH: f64 = (1 << 26) as f64;
+
+impl Placed {
+    /// The instance of that index, and its box in the world. `bounds` is that of its geometry.
+    pub(super) fn new(
+        index: usize,
+        instance: &Instance,
+        bounds: &Aabb<3>,
+    ) -> Result<(Self, Aabb<3>), InstanceError> {
+        let to_world = affine(&instance.to_world);
+        let to_object = to_world.inverse();
+        let stretch = norm(&to_world.matrix3) * norm(&to_object.matrix3);
+        // A NaN is refused as well.
+        if !(stretch <= MOST_STRETCH && to_world.is_finite() && to_object.is_finite()) {
+            return Err(InstanceError::Singular(index));
+        }
+        let placed = Self { geometry_id: instance.geometry_id, mask: instance.mask, to_object };
+        let bounds = world_bounds(&to_world, bounds).ok_or(InstanceError::OutOfRange(index))?;
+        Ok((placed, bounds))
+    }
+}
+
+/// The same matrix, by columns.
+fn affine(rows: &[[f64; 4]; 3]) -> DAffine3 {
+    let column = |k: usize| DVec3::new(rows[0][k], rows[1][k], rows[2][k]);
+    DAffine3::from_cols(column(0), column(1), column(2), column(3))
+}
+
+/// At least the most that a matrix stretches any direction: Frobenius' norm.
+fn norm(matrix: &DMat3) -> f64 {
+    let [x, y, z] = [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(DVec3::length_squared);
+    (x + y + z).sqrt()
+}
+
+/// A box that holds what is in `bounds`, once it is placed; `None` if f32 cannot say it. A geometry
+/// without triangles has the box of a point.
+fn world_bounds(to_world: &DAffine3, bounds: &Aabb<3>) -> Option<Aabb<3>> {
+    let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    for corner in 0..8 {
+        let choose = |axis: usize| if corner >> axis & 1 == 0 { bounds.min } else { bounds.max };
+        let corner = DVec3::from([0, 1, 2].map(|axis| f64::from(choose(axis)[axis])));
+        let corner = if bounds.is_empty() { DVec3::ZERO } else { corner };
+        let corner = to_world.transform_point3(corner);
+        (low, high) = (low.min(corner), high.max(corner));
+    }
+    let reach = low.abs().max(high.abs()).max_element() * WIDENED;
+    let min = (low - reach).to_array().map(|x| (x as f32).next_down());
+    let max = (high + reach).to_array().map(|x| (x as f32).next_up());
+    let is_finite = min.iter().chain(&max).all(|x| x.is_finite());
+    is_finite.then_some(Aabb { min, max })
+}

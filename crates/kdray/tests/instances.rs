@@ -1,0 +1,245 @@
+//! Placed copies of meshes, against the same triangles in one mesh, and against every copy asked in turn.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use kdray::query::{InstanceError, InstancedSceneError};
+use kdray::{BuildOptions, Hit, Instance, InstanceHit, InstancedScene, Ray, Scene, TriangleMesh};
+use rand::{Rng, RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+
+/// The cube from −1 to 1, closed, its fronts outside.
+fn cube() -> TriangleMesh {
+    let vertices = (0..8).map(|i| [1, 2, 4].map(|bit| if i & bit == 0 { -1.0 } else { 1.0 }));
+    let quads = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
+    let triangles = quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]);
+    TriangleMesh::new(vertices.collect(), triangles.collect()).unwrap()
+}
+
+/// Triangles here and there.
+fn shards(count: u32, random: &mut impl Rng) -> TriangleMesh {
+    let vertices = (0..3 * count).map(|_| [(); 3].map(|()| random.random_range(-1.0..1.0)));
+    let triangles = (0..count).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]);
+    TriangleMesh::new(vertices.collect(), triangles.collect()).unwrap()
+}
+
+fn scene(mesh: TriangleMesh) -> Scene {
+    Scene::build(mesh, &BuildOptions::default()).unwrap()
+}
+
+/// A matrix of small whole numbers and halves, by which f64 moves the meshes here without rounding.
+fn exact_matrix(random: &mut impl Rng) -> [[f64; 4]; 3] {
+    let mut rows = [[0.0; 4]; 3];
+    let turn = random.random_range(0..3);
+    for (i, row) in rows.iter_mut().enumerate() {
+        let sign = if random.random() { 1.0 } else { -1.0 };
+        row[(i + turn) % 3] = sign * [0.5, 1.0, 2.0][random.random_range(0..3)];
+        row[3] = f64::from(random.random_range(-6..7));
+    }
+    rows
+}
+
+/// The mesh as the matrix places it.
+fn placed(mesh: &TriangleMesh, rows: &[[f64; 4]; 3]) -> Vec<[f32; 3]> {
+    let place = |p: &[f32; 3]| {
+        rows.map(|[x, y, z, w]| {
+            let [px, py, pz] = p.map(f64::from);
+            (x * px + y * py + z * pz + w) as f32
+        })
+    };
+    mesh.vertices().iter().map(place).collect()
+}
+
+fn random_ray(random: &mut impl Rng, reach: f64) -> Ray {
+    let mut point = || [(); 3].map(|()| random.random_range(-reach..reach));
+    Ray::through(point(), point()).with_interval(0.0, f64::INFINITY)
+}
+
+/// Which triangles are hit, and where: by id, since hits of one t may swap their order, which rounds
+/// otherwise in a turned space.
+fn by_id(hits: impl Iterator<Item = (u32, f64)>) -> (Vec<u32>, Vec<f64>) {
+    let mut hits: Vec<_> = hits.collect();
+    hits.sort_unstable_by_key(|&(id, _)| id);
+    hits.into_iter().unzip()
+}
+
+fn are_close(a: &[f64], b: &[f64]) -> bool {
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() <= 1e-12 * a.abs())
+}
+
+#[test]
+fn copies_are_hit_as_their_triangles_in_one_mesh() {
+    let mut random = Pcg64Mcg::seed_from_u64(1);
+    let geometries = [cube(), shards(50, &mut random)];
+    let instances: Vec<Instance> = (0..40)
+        .map(|i| Instance::of(i % 2).placed(exact_matrix(&mut random)))
+        .collect();
+    let (mut vertices, mut triangles, mut firsts) = (Vec::new(), Vec::new(), Vec::new());
+    for instance in &instances {
+        let mesh = &geometries[instance.geometry_id as usize];
+        let first = vertices.len() as u32;
+        firsts.push(triangles.len() as u32);
+        vertices.extend(placed(mesh, &instance.to_world));
+        triangles.extend(mesh.triangles().iter().map(|t| t.map(|vertex| first + vertex)));
+    }
+    let one = scene(TriangleMesh::new(vertices, triangles).unwrap());
+    let copies = InstancedScene::build(geometries.map(scene).to_vec(), instances).unwrap();
+
+    let mut hits = 0;
+    for i in 0..4000 {
+        let mut ray = random_ray(&mut random, 9.0);
+        // Carried without rounding; every second one along the grid, into faces, edges and vertices.
+        let steps = if i % 2 == 0 { 1.0 } else { 1024.0 };
+        ray.origin = ray.origin.map(|x| (x * steps).round() / steps);
+        ray.direction = ray.direction.map(|x| (x / 6.0 * steps).round() / steps);
+        if ray.check().is_err() {
+            continue;
+        }
+        let closest = copies.closest_hit(&ray);
+        hits += usize::from(closest.is_some());
+        assert_eq!(closest, copies.all_touched(&ray).next());
+        assert_eq!(copies.any_hit(&ray), closest.is_some());
+        let (ids, t) = by_id(copies.all_touched(&ray).map(|found| {
+            (firsts[found.instance_id as usize] + found.hit.primitive_id, found.hit.t)
+        }));
+        let (expected, expected_t) =
+            by_id(one.all_touched(&ray).map(|hit| (hit.primitive_id, hit.t)));
+        assert_eq!(ids, expected, "{ray:?}");
+        assert!(are_close(&t, &expected_t), "{ray:?}");
+    }
+    assert!(hits > 1000, "{hits}");
+}
+
+/// What is asked of each instance alone gives.
+fn naive(scene: &InstancedScene, ray: &Ray) -> Vec<InstanceHit> {
+    let alone = |(index, instance): (usize, &Instance)| {
+        let geometry = scene.geometries()[instance.geometry_id as usize].clone();
+        let alone = Instance { geometry_id: 0, ..*instance };
+        let scene = InstancedScene::build(vec![geometry], vec![alone]).unwrap();
+        let found = scene.all_touched(ray).map(|found| InstanceHit {
+            instance_id: index as u32,
+            geometry_id: instance.geometry_id,
+            ..found
+        });
+        found.collect::<Vec<_>>()
+    };
+    let mut all: Vec<_> = scene.instances().iter().enumerate().flat_map(alone).collect();
+    all.sort_by(InstanceHit::order);
+    all
+}
+
+#[test]
+fn any_matrix_gives_what_each_copy_gives_alone() {
+    let mut random = Pcg64Mcg::seed_from_u64(2);
+    let geometries = vec![scene(cube()), scene(shards(30, &mut random))];
+    let instances: Vec<Instance> = (0..25)
+        .map(|i| {
+            let row = |_| [(); 4].map(|()| random.random_range(-2.0..2.0));
+            Instance::of(i % 2).placed([0, 1, 2].map(row))
+        })
+        .collect();
+    let scene = InstancedScene::build(geometries, instances).unwrap();
+    for _ in 0..1000 {
+        let ray = random_ray(&mut random, 8.0);
+        let expected = naive(&scene, &ray);
+        assert_eq!(scene.all_touched(&ray).collect::<Vec<_>>(), expected);
+        assert_eq!(scene.closest_hit(&ray).as_ref(), expected.first());
+        assert_eq!(scene.any_hit(&ray), !expected.is_empty());
+    }
+}
+
+#[test]
+fn closed_copies_are_crossed_an_even_number_of_times() {
+    let mut random = Pcg64Mcg::seed_from_u64(3);
+    let row = |random: &mut Pcg64Mcg| [(); 4].map(|()| random.random_range(-2.0..2.0));
+    let instances: Vec<_> =
+        (0..30).map(|_| Instance::of(0).placed([(); 3].map(|()| row(&mut random)))).collect();
+    let scene = InstancedScene::build(vec![scene(cube())], instances).unwrap();
+    let mut crossed = 0;
+    for _ in 0..2000 {
+        let mut ray = random_ray(&mut random, 4.0);
+        ray.origin[0] += 100.0;
+        let count = scene.count(&ray);
+        assert_eq!(count % 2, 0, "{ray:?}");
+        crossed += count;
+    }
+    assert!(crossed > 100, "{crossed}");
+}
+
+#[test]
+fn masks_hide_instances() {
+    let at = |x: f64, mask| Instance::of(0).moved([x, 0.0, 0.0]).masked(mask);
+    let scene = InstancedScene::build(vec![scene(cube())], vec![at(0.0, 1), at(10.0, 2)]).unwrap();
+    let ray = Ray::new([-5.0, 0.25, 0.5], [1.0, 0.0, 0.0]);
+    let seen = |mask| {
+        let scene = scene.clone().with_mask(mask);
+        let closest = scene.closest_hit(&ray).map(|found| found.instance_id);
+        assert_eq!(scene.any_hit(&ray), closest.is_some());
+        (closest, scene.count(&ray))
+    };
+    assert_eq!([1, 2, 3, 4].map(seen), [(Some(0), 2), (Some(1), 2), (Some(0), 4), (None, 0)]);
+}
+
+#[test]
+fn normals_are_those_of_the_placed_triangles() {
+    let mut random = Pcg64Mcg::seed_from_u64(4);
+    for _ in 0..20 {
+        let rows = exact_matrix(&mut random);
+        let instance = Instance::of(0).placed(rows);
+        let copy = InstancedScene::build(vec![scene(cube())], vec![instance]).unwrap();
+        let mesh = TriangleMesh::new(placed(&cube(), &rows), cube().triangles().to_vec()).unwrap();
+        let [x, y, z] = [0, 1, 2].map(|k| glam::DVec3::new(rows[0][k], rows[1][k], rows[2][k]));
+        let mirrored = x.cross(y).dot(z) < 0.0;
+        for id in 0..12 {
+            let hit = Hit { t: 0.0, primitive_id: id, u: 0.0, v: 0.0, side: kdray::Side::Front };
+            let found = InstanceHit { hit, instance_id: 0, geometry_id: 0 };
+            let of_mesh = glam::DVec3::from(mesh.geometric_normal(id));
+            let expected = if mirrored { -of_mesh } else { of_mesh };
+            assert!(expected.distance(copy.geometric_normal(&found).into()) < 1e-12);
+        }
+    }
+}
+
+#[test]
+fn ten_thousand_copies_share_one_tree() {
+    let instances: Vec<_> = (0..10_000_u32)
+        .map(|i| Instance::of(0).moved([f64::from(4 * (i % 100)), f64::from(4 * (i / 100)), 0.0]))
+        .collect();
+    let scene = InstancedScene::build(vec![scene(cube())], instances).unwrap();
+    assert_eq!((scene.geometries().len(), scene.instances().len()), (1, 10_000));
+    for i in 0..10_000_u32 {
+        let (x, y) = (f64::from(4 * (i % 100)), f64::from(4 * (i / 100)));
+        let ray = Ray::new([x + 0.25, y + 0.5, 9.0], [0.0, 0.0, -1.0]);
+        let found = scene.closest_hit(&ray).unwrap();
+        assert_eq!((found.instance_id, found.hit.t), (i, 8.0));
+    }
+}
+
+#[test]
+fn what_cannot_be_placed_is_refused() {
+    let refused = |instance: Instance| {
+        let error = InstancedScene::build(vec![scene(cube())], vec![instance]).unwrap_err();
+        assert!(error.to_string().contains("; "), "it does not say what to do: {error}");
+        let InstancedSceneError::Instance(error) = error else { panic!("{error}") };
+        error
+    };
+    let flat = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0; 4]];
+    assert_eq!(refused(Instance::of(0).placed(flat)), InstanceError::Singular(0));
+    let nearly = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1e-9, 0.0]];
+    assert_eq!(refused(Instance::of(0).placed(nearly)), InstanceError::Singular(0));
+    let nowhere = Instance::of(0).moved([f64::NAN, 0.0, 0.0]);
+    assert_eq!(refused(nowhere), InstanceError::Singular(0));
+    let far = Instance::of(0).moved([1e39, 0.0, 0.0]);
+    assert_eq!(refused(far), InstanceError::OutOfRange(0));
+    let missing = InstanceError::NoSuchGeometry { instance: 0, geometry_id: 1, geometries: 1 };
+    assert_eq!(refused(Instance::of(1)), missing);
+}
+
+#[test]
+fn nothing_is_hit_where_nothing_is() {
+    let empty = scene(TriangleMesh::default());
+    let ray = Ray::new([0.0; 3], [1.0, 0.0, 0.0]);
+    for instances in [vec![], vec![Instance::of(0)]] {
+        let scene = InstancedScene::build(vec![empty.clone()], instances).unwrap();
+        assert_eq!((scene.closest_hit(&ray), scene.any_hit(&ray), scene.count(&ray)), (None, false, 0));
+    }
+}
