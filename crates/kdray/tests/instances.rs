@@ -10,16 +10,18 @@ use rand_pcg::Pcg64Mcg;
 /// The cube from −1 to 1, closed, its fronts outside.
 fn cube() -> TriangleMesh {
     let vertices = (0..8).map(|i| [1, 2, 4].map(|bit| if i & bit == 0 { -1.0 } else { 1.0 }));
-    let quads = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
+    let quads =
+        [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
     let triangles = quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]);
     TriangleMesh::new(vertices.collect(), triangles.collect()).unwrap()
 }
 
-/// Triangles here and there.
+/// Triangles here and there, on a grid so fine that f32 holds them where they are placed.
 fn shards(count: u32, random: &mut impl Rng) -> TriangleMesh {
-    let vertices = (0..3 * count).map(|_| [(); 3].map(|()| random.random_range(-1.0..1.0)));
+    let mut coordinate = || f32::from(random.random_range(-256..256_i16)) / 256.0;
+    let vertices: Vec<_> = (0..3 * count).map(|_| [(); 3].map(|()| coordinate())).collect();
     let triangles = (0..count).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]);
-    TriangleMesh::new(vertices.collect(), triangles.collect()).unwrap()
+    TriangleMesh::new(vertices, triangles.collect()).unwrap()
 }
 
 fn scene(mesh: TriangleMesh) -> Scene {
@@ -70,9 +72,8 @@ fn are_close(a: &[f64], b: &[f64]) -> bool {
 fn copies_are_hit_as_their_triangles_in_one_mesh() {
     let mut random = Pcg64Mcg::seed_from_u64(1);
     let geometries = [cube(), shards(50, &mut random)];
-    let instances: Vec<Instance> = (0..40)
-        .map(|i| Instance::of(i % 2).placed(exact_matrix(&mut random)))
-        .collect();
+    let instances: Vec<Instance> =
+        (0..40).map(|i| Instance::of(i % 2).placed(exact_matrix(&mut random))).collect();
     let (mut vertices, mut triangles, mut firsts) = (Vec::new(), Vec::new(), Vec::new());
     for instance in &instances {
         let mesh = &geometries[instance.geometry_id as usize];
@@ -156,8 +157,8 @@ fn closed_copies_are_crossed_an_even_number_of_times() {
     let scene = InstancedScene::build(vec![scene(cube())], instances).unwrap();
     let mut crossed = 0;
     for _ in 0..2000 {
-        let mut ray = random_ray(&mut random, 4.0);
-        ray.origin[0] += 100.0;
+        let target = random_ray(&mut random, 2.0).origin;
+        let ray = Ray::through([100.0, 3.0, -2.0], target).with_interval(0.0, f64::INFINITY);
         let count = scene.count(&ray);
         assert_eq!(count % 2, 0, "{ray:?}");
         crossed += count;
@@ -240,6 +241,9 @@ fn nothing_is_hit_where_nothing_is() {
     let ray = Ray::new([0.0; 3], [1.0, 0.0, 0.0]);
     for instances in [vec![], vec![Instance::of(0)]] {
         let scene = InstancedScene::build(vec![empty.clone()], instances).unwrap();
-        assert_eq!((scene.closest_hit(&ray), scene.any_hit(&ray), scene.count(&ray)), (None, false, 0));
+        assert_eq!(
+            (scene.closest_hit(&ray), scene.any_hit(&ray), scene.count(&ray)),
+            (None, false, 0)
+        );
     }
 }
