@@ -71,6 +71,11 @@ impl Homes {
         &self.homes
     }
 
+    /// The number of the home of the node at `link`. Homes stand in the order of their nodes' lines.
+    pub(super) fn number_at(&self, link: Link) -> u32 {
+        self.homes.partition_point(|home| home.link().line() < link.line()) as u32
+    }
+
     /// For each slot of the arena in which a block begins the number of the home of the node above.
     pub(super) fn numbers_above(&self) -> &Store<u32> {
         &self.above

@@ -10,6 +10,7 @@ mod error;
 mod hint;
 mod home;
 mod homes;
+mod matching;
 mod node;
 mod parts;
 mod plan;

@@ -4,9 +4,10 @@
 //! order of children, homes. Two things do not: how the tree is collapsed, which is a matter of speed,
 //! and what rounding did to the boxes. Any collapse is accepted, and any box that holds what it must.
 
-use super::arena::{Arena, BLOCK_LINES};
+use super::arena::BLOCK_LINES;
 use super::home::{Home, Site};
 use super::homes::Homes;
+use super::matching::Matching;
 use super::plan::part_of_leaf;
 use super::treelet::Treelet;
 use super::wide::{FULL_MARGIN, margin};
@@ -29,10 +30,7 @@ struct Verifier<'a> {
     wide: &'a WideTree,
     tree: &'a KdTree<3>,
     mesh: &'a TriangleMesh,
-    /// For each node of the canonical tree how many references there are below it.
-    references: Vec<u32>,
-    /// For each wide node how many triangles there are below it.
-    triangles: Vec<u32>,
+    matching: Matching<'a>,
 }
 
 /// What a child of a wide node stands for.
@@ -47,58 +45,13 @@ struct Stand {
     bounds: Aabb<3>,
 }
 
-/// The children of a wide node as parts of the canonical tree.
-#[derive(Default)]
-struct Parts {
-    treelet: Treelet,
-    /// The true cells of the treelet's ends.
-    cells: Vec<Aabb<3>>,
-}
-
 impl WideTree {
     /// Checks a wide tree, whose structure is known to be right, against the canonical tree, which is
     /// known to be valid.
     pub(crate) fn verify(&self, tree: &KdTree<3>, mesh: &TriangleMesh) -> Result<(), WideError> {
-        let verifier = Verifier {
-            wide: self,
-            tree,
-            mesh,
-            references: references_below(tree),
-            triangles: triangles_below(&self.arena, self.homes.list()),
-        };
-        verifier.verify()
+        let matching = Matching::new(self, tree);
+        Verifier { wide: self, tree, mesh, matching }.verify()
     }
-}
-
-/// For each node how many references there are below it.
-fn references_below(tree: &KdTree<3>) -> Vec<u32> {
-    let mut below = vec![0; tree.nodes().len()];
-    // Children stand behind their parents.
-    for (index, node) in tree.nodes().iter().enumerate().rev() {
-        below[index] = match node.kind() {
-            NodeKind::Inner { above, .. } => below[index + 1] + below[above as usize],
-            NodeKind::Leaf { count, .. } => count,
-        };
-    }
-    below
-}
-
-/// For each home how many triangles there are below its node.
-fn triangles_below(arena: &Arena, homes: &[Home]) -> Vec<u32> {
-    let mut below = vec![0; homes.len()];
-    for (number, home) in homes.iter().enumerate().rev() {
-        let links = arena.node(home.link()).links().map(Link::from_bits);
-        let leaves = links.into_iter().filter(|link| link.is_leaf());
-        below[number] += leaves.map(|link| triangles_in(arena, link)).sum::<u32>();
-        if number > 0 {
-            below[home.parent() as usize] += below[number];
-        }
-    }
-    below
-}
-
-fn triangles_in(arena: &Arena, leaf: Link) -> u32 {
-    (0..leaf.block_count()).map(|index| arena.block(leaf, index).triangle_count()).sum()
 }
 
 impl Verifier<'_> {
@@ -115,8 +68,8 @@ impl Verifier<'_> {
     fn verify_node(&self, link: Link, stand: &Stand, levels: usize) -> Result<(), WideError> {
         let node = self.wide.node(link);
         let number = self.verify_home(link, &stand.site)?;
-        let parts = self.parts(link, stand)?;
         let wrong = WideError::NotTheTrees { line: link.line() };
+        let parts = self.matching.parts(link, stand.node, stand.cell).ok_or(wrong)?;
         if (0..8).any(|octant| node.order(octant) != order(&parts.treelet, octant)) {
             return Err(wrong);
         }
@@ -148,16 +101,11 @@ impl Verifier<'_> {
 
     /// The number of the node's home, if that is the right one.
     fn verify_home(&self, link: Link, site: &Site) -> Result<u32, WideError> {
-        let number = self.number(link);
+        let number = self.wide.homes.number_at(link);
         let expected = Home::new(site, link, margin(FULL_MARGIN, self.wide.reach));
         let found = self.wide.homes.list().get(number as usize);
         let is_right = found.is_some_and(|home| bytes_of(home) == bytes_of(&expected));
         if is_right { Ok(number) } else { Err(WideError::BadHome { line: link.line() }) }
-    }
-
-    /// Homes stand in the order of their nodes' lines.
-    fn number(&self, link: Link) -> u32 {
-        self.wide.homes.list().partition_point(|home| home.link().line() < link.line()) as u32
     }
 
     /// The box of a child, if it lies in that of the node.
@@ -229,76 +177,6 @@ impl Verifier<'_> {
         }
         Ok(())
     }
-
-    /// Which parts of the canonical tree the children of a node are.
-    fn parts(&self, link: Link, stand: &Stand) -> Result<Parts, WideError> {
-        let node = self.wide.node(link);
-        let count = node.child_count();
-        let weights: Vec<u32> =
-            node.links()[..count].iter().map(|&bits| self.weight(bits)).collect();
-        let mut parts = Parts::default();
-        let line = link.line();
-        if self.references[stand.node as usize] == 0 {
-            return if count == 0 { Ok(parts) } else { Err(WideError::NotTheTrees { line }) };
-        }
-        let found = self.cut(&mut parts, stand.node, stand.cell, &weights);
-        found.map(|()| parts).ok_or(WideError::NotTheTrees { line })
-    }
-
-    /// How many triangles there are below a link.
-    fn weight(&self, bits: u32) -> u32 {
-        let link = Link::from_bits(bits);
-        if link.is_leaf() {
-            return triangles_in(&self.wide.arena, link);
-        }
-        self.triangles.get(self.number(link) as usize).copied().unwrap_or(0)
-    }
-
-    /// Cuts a node open, so that there are parts of as many references as the weights say.
-    fn cut(&self, parts: &mut Parts, node: u32, cell: Aabb<3>, weights: &[u32]) -> Option<()> {
-        let (node, cell) = self.filled(node, cell);
-        if let [weight] = weights {
-            parts.treelet.ends.push(node);
-            parts.cells.push(cell);
-            return (self.references[node as usize] == *weight).then_some(());
-        }
-        let NodeKind::Inner { axis, split, above } = self.tree.nodes()[node as usize].kind() else {
-            return None;
-        };
-        let below = self.references[node as usize + 1];
-        let count = first_of_sum(weights, below)?;
-        let (lower, upper) = cell.split(axis, split);
-        let (lower_node, _) = self.filled(node + 1, lower);
-        let (upper_node, _) = self.filled(above, upper);
-        parts.treelet.push_cut(node, axis, split, lower_node, upper_node);
-        self.cut(parts, node + 1, lower, &weights[..count])?;
-        self.cut(parts, above, upper, &weights[count..])
-    }
-
-    /// The node itself, or the uppermost below it that holds the same and has no empty child; with its
-    /// cell. It holds something.
-    fn filled(&self, mut node: u32, mut cell: Aabb<3>) -> (u32, Aabb<3>) {
-        while let NodeKind::Inner { axis, split, above } = self.tree.nodes()[node as usize].kind() {
-            let (lower, upper) = cell.split(axis, split);
-            match [node + 1, above].map(|child| self.references[child as usize] == 0) {
-                [false, false] => break,
-                [true, _] => (node, cell) = (above, upper),
-                [false, true] => (node, cell) = (node + 1, lower),
-            }
-        }
-        (node, cell)
-    }
-}
-
-/// How many of the first weights make up a sum; none of it and all of it do not count.
-fn first_of_sum(weights: &[u32], sum: u32) -> Option<usize> {
-    let mut found = 0;
-    let reaches = |&weight: &u32| {
-        found += weight;
-        found >= sum
-    };
-    let count = weights.iter().position(reaches)? + 1;
-    (found == sum && count < weights.len()).then_some(count)
 }
 
 /// The order of a treelet's ends in an octant.
