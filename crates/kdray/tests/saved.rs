@@ -14,9 +14,9 @@ fn scenes() -> Vec<Scene> {
         BuildOptions { leaf_size: usize::MAX, ..BuildOptions::preset(Preset::Balanced) };
     let mut all = Vec::new();
     for options in Preset::ALL.map(BuildOptions::preset) {
-        all.extend([0, 1, 5, 300, 6000].map(|count| (soup(count), options.clone())));
+        all.extend([0, 1, 5, 300, 6000].map(|count| (soup(count), options)));
     }
-    all.extend([60, 3000].map(|count| (soup(count), large_leaves.clone())));
+    all.extend([60, 3000].map(|count| (soup(count), large_leaves)));
     all.push((soup(300), BuildOptions::for_strategy(Strategy::Middle)));
     let huge = soup(300).vertices().iter().map(|p| p.map(|x| x * 1e30)).collect();
     let triangles = soup(300).triangles().to_vec();

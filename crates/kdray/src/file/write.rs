@@ -2,7 +2,7 @@
 
 use super::header::Header;
 use super::sections::{COUNT, Sections};
-use crate::layout::WideParts;
+use crate::layout::{WideParts, WideTree};
 use crate::query::Scene;
 use std::convert::Infallible;
 use std::hash::Hasher;
@@ -46,7 +46,7 @@ impl Scene {
     }
 
     fn wide_parts(&self) -> WideParts {
-        self.wide_tree().map(|wide| wide.parts()).unwrap_or_default()
+        self.wide_tree().map(WideTree::parts).unwrap_or_default()
     }
 
     fn counts(&self) -> [u64; COUNT] {
