@@ -39,6 +39,7 @@ pub(crate) struct Globals {
 #[derive(Debug, Subcommand)]
 enum Command {
     Render(Box<commands::render::Args>),
+    Build(commands::build::Args),
     Stats(commands::stats::Args),
     Validate(commands::validate::Args),
     Compare(commands::compare::Args),
@@ -62,6 +63,7 @@ pub(crate) fn run() -> Result<(), CliError> {
     }
     match &command {
         Command::Render(args) => commands::render::run(args, &globals),
+        Command::Build(args) => commands::build::run(args, &globals),
         Command::Stats(args) => commands::stats::run(args, &globals),
         Command::Validate(args) => commands::validate::run(args, &globals),
         Command::Compare(args) => commands::compare::run(args, &globals),

@@ -1,7 +1,8 @@
 //! What can go wrong, and the exit code that says so.
 
 use crate::interrupt;
-use kdray::{BuildError, MeshError, tree::TreeError};
+use kdray::{BuildError, FileError, MeshError, tree::TreeError};
+use kdray_file::TreeFileError;
 use kdray_render::{RenderError, WorldError, WriteError};
 use kdray_scene::LoadError;
 use std::{
@@ -17,6 +18,17 @@ pub(crate) enum CliError {
     /// A tree that is not what it must be.
     #[error("the tree is broken: {0}")]
     Tree(#[from] TreeError),
+    /// A tree file whose header and structure are right, and whose content is not.
+    #[error("{}: {reason}", path.display())]
+    BrokenFile {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: FileError,
+    },
+    /// A tree file that could not be read, or was refused.
+    #[error("{0}{advice}", advice = file_advice(.0))]
+    TreeFile(#[from] TreeFileError),
     /// Two ways to answer a ray gave different answers.
     #[error("{0}; this is a fault of kdray, please report it with the scene")]
     Disagreement(String),
@@ -89,10 +101,10 @@ impl CliError {
     fn exit_code(&self) -> u8 {
         match self {
             Self::Stdout(error) if error.kind() == io::ErrorKind::BrokenPipe => 0,
-            Self::Tree(_) | Self::Disagreement(_) => 1,
+            Self::Tree(_) | Self::BrokenFile { .. } | Self::Disagreement(_) => 1,
             Self::Usage(_) | Self::Render(_) => 2,
             Self::Interrupted | Self::Build(BuildError::Cancelled) => interrupt::EXIT_CODE,
-            Self::Input { .. } | Self::Load(_) => 3,
+            Self::Input { .. } | Self::Load(_) | Self::TreeFile(_) => 3,
             Self::World(_) | Self::Mesh(_) | Self::Build(_) => 3,
             Self::Output { .. } | Self::Stdout(_) => 4,
         }
@@ -113,6 +125,15 @@ impl CliError {
 /// What the library cannot say: by which option.
 fn advice(error: &BuildError) -> &'static str {
     if matches!(error, BuildError::Memory { .. }) { " with --memory-limit" } else { "" }
+}
+
+/// The same for a tree file.
+fn file_advice(error: &TreeFileError) -> &'static str {
+    if matches!(error, TreeFileError::Memory { .. }) {
+        " (options --trusted and --memory-limit)"
+    } else {
+        ""
+    }
 }
 
 impl From<WorldError> for CliError {

@@ -5,6 +5,7 @@ use crate::{
     cli::Globals,
     error::CliError,
     progress::{self, Progress},
+    tree_file,
 };
 use kdray::TriangleMesh;
 use kdray_scene::{LoadOptions, Model, built_in};
@@ -15,6 +16,7 @@ const MAX_BYTES_OF_STDIN: u64 = 1 << 30;
 
 /// Reads the scene that `args` name; the built-in one if they name none.
 pub(crate) fn model(args: &SceneArgs, globals: &Globals) -> Result<Model, CliError> {
+    tree_file::refuse(args)?;
     let name = args.scene.as_deref().unwrap_or(Path::new("the built-in scene")).display();
     let progress = Progress::spin(&format!("reading {name}"), globals);
     let model = match args.scene.as_deref() {

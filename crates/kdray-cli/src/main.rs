@@ -15,6 +15,7 @@ mod pictures;
 mod progress;
 mod query;
 mod table;
+mod tree_file;
 
 use std::process::ExitCode;
 

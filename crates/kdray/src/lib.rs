@@ -1,8 +1,8 @@
 //! Exact ray queries on triangle meshes, through SAH kd-trees.
 //!
 //! The pipeline, in the order of the modules:
-//! [`geometry`] → [`exact`] → [`primitives`] → [`tree`] → [`build`] → [`simd`] → [`layout`] →
-//! [`traverse`] → [`query`].
+//! [`memory`] → [`geometry`] → [`exact`] → [`primitives`] → [`tree`] → [`build`] → [`simd`] → [`layout`] →
+//! [`traverse`] → [`query`] → [`file`].
 //!
 //! Most users need four names: [`TriangleMesh`], [`Scene`], [`Ray`] and [`Hit`].
 
@@ -10,8 +10,10 @@
 
 pub mod build;
 pub mod exact;
+pub mod file;
 pub mod geometry;
 pub mod layout;
+pub mod memory;
 pub mod primitives;
 pub mod query;
 pub mod simd;
@@ -19,6 +21,7 @@ pub mod traverse;
 pub mod tree;
 
 pub use build::{BuildError, BuildOptions, BuildProgress, CostModel, Preset, Strategy};
+pub use file::FileError;
 pub use geometry::{Aabb, Interval, Ray, RayError, RayPacket};
 pub use layout::Hint;
 pub use primitives::{Hit, MeshError, Side, TriangleMesh};

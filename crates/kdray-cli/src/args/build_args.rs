@@ -50,6 +50,14 @@ impl FastBuildArgs {
         self.limits.apply(self.split.map_or(preset, BuildOptions::for_strategy))
     }
 
+    /// The options that were given, by their names: what has no meaning for a tree that is there.
+    pub(crate) fn given(&self) -> impl Iterator<Item = &'static str> {
+        let own = [("--preset", self.preset.is_some()), ("--split", self.split.is_some())];
+        own.into_iter()
+            .filter_map(|(name, is_given)| is_given.then_some(name))
+            .chain(self.limits.given())
+    }
+
     /// The same with a tree of the lecture, by default that of the surface area heuristic.
     pub(crate) fn lecture_options(&self) -> BuildOptions {
         self.limits.options(self.split.unwrap_or_default())
@@ -64,6 +72,13 @@ impl BuildArgs {
 }
 
 impl LimitArgs {
+    /// The options that were given, by their names, but for the limit of memory.
+    pub(crate) fn given(&self) -> impl Iterator<Item = &'static str> {
+        let own =
+            [("--leaf-size", self.leaf_size.is_some()), ("--max-depth", self.max_depth.is_some())];
+        own.into_iter().filter_map(|(name, is_given)| is_given.then_some(name))
+    }
+
     /// What the library is asked for with the given strategy.
     pub(crate) fn options(&self, strategy: Strategy) -> BuildOptions {
         self.apply(BuildOptions::for_strategy(strategy))

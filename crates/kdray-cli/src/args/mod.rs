@@ -3,12 +3,14 @@
 mod build_args;
 mod memory;
 mod scene_args;
+mod tree_file_args;
 mod values;
 mod view_args;
 
 pub(crate) use build_args::{BuildArgs, FastBuildArgs, LimitArgs};
 pub(crate) use memory::MemoryLimit;
 pub(crate) use scene_args::{SceneArgs, SceneFormat};
+pub(crate) use tree_file_args::TreeFileArgs;
 pub(crate) use values::{Size, color, numbers};
 pub(crate) use view_args::ViewArgs;
 

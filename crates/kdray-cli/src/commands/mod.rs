@@ -1,5 +1,6 @@
 //! The commands, one a module: what it takes (`Args`) and what it does (`run`).
 
+pub(crate) mod build;
 pub(crate) mod compare;
 pub(crate) mod completions;
 pub(crate) mod draw;

@@ -1,13 +1,14 @@
 //! `kdray query`: answers for a file of rays.
 
 use crate::{
-    args::{FastBuildArgs, SceneArgs},
+    args::{FastBuildArgs, SceneArgs, TreeFileArgs},
     build,
     cli::Globals,
     error::CliError,
     load,
     progress::{self, Progress},
     query::{Answer, Answerer, HitWriter, HitsFormat, Mode, RayReader, Summary},
+    tree_file::{self, Trust},
 };
 use kdray::Ray;
 use rayon::prelude::*;
@@ -33,6 +34,9 @@ const RUN: usize = 256;
 Example: the first hit of every ray
   kdray query bunny.ply --rays rays.npy --out hits.npz
 
+Example: the same from a tree that was saved by `build`
+  kdray query bunny.kdray --trusted --rays rays.npy --out hits.npz
+
 Example: is the mesh closed? Rays from outside cross it an even number of times
   kdray query bunny.ply --rays rays.csv --mode count --out - | sort | uniq -c")]
 pub(crate) struct Args {
@@ -52,6 +56,8 @@ pub(crate) struct Args {
     naive: bool,
     #[command(flatten)]
     build: FastBuildArgs,
+    #[command(flatten)]
+    tree_file: TreeFileArgs,
 }
 
 /// Reads, answers and writes, a chunk at a time.
@@ -89,6 +95,15 @@ pub(crate) fn run(args: &Args, globals: &Globals) -> Result<(), CliError> {
 }
 
 fn answerer(args: &Args, globals: &Globals) -> Result<Answerer, CliError> {
+    let trust = Trust::of(args.tree_file.trusted);
+    let (given, limits) = (args.build.given(), &args.build.limits);
+    if let Some(scene) = tree_file::scene(&args.scene, trust, given, limits, globals)? {
+        return Ok(if args.naive {
+            Answerer::naive(scene.into_mesh())
+        } else {
+            Answerer::Tree(scene)
+        });
+    }
     let mesh = load::mesh(&args.scene, globals)?;
     if args.naive {
         return Ok(Answerer::naive(mesh));

@@ -1,20 +1,24 @@
 //! `kdray stats`: figures of a scene and of its tree.
 
 use crate::{
-    args::{BuildArgs, SceneArgs, TableArgs},
+    args::{BuildArgs, SceneArgs, TableArgs, TreeFileArgs},
     build,
     cli::Globals,
     error::CliError,
     load, output,
     table::{columns, print_json},
+    tree_file::{self, Trust},
 };
-use kdray::{CostModel, ShapeScene, Strategy, TreeStats};
+use kdray::{CostModel, Scene, ShapeScene, TreeStats};
 use serde::Serialize;
 
 /// Characters of the longest bar of the histogram.
 const BAR: usize = 40;
 
 /// Print figures of the scene and of its tree
+///
+/// Of a tree file the figures are those of the tree in it. What it is expected to cost is reckoned by
+/// the costs of --split.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Example: how much smaller is a tree with larger leaves?
@@ -25,18 +29,20 @@ pub(crate) struct Args {
     #[command(flatten)]
     build: BuildArgs,
     #[command(flatten)]
+    tree_file: TreeFileArgs,
+    #[command(flatten)]
     table: TableArgs,
 }
 
 /// The figures under the names that they have in JSON. Bounds are null for a scene without
-/// triangles.
+/// triangles, and the split for a tree file, which does not say.
 #[derive(Debug, Serialize)]
 struct Figures {
     triangles: usize,
     vertices: usize,
     bounds_min: Option<[f32; 3]>,
     bounds_max: Option<[f32; 3]>,
-    split: &'static str,
+    split: Option<&'static str>,
     nodes: usize,
     leaves: usize,
     empty_leaves: usize,
@@ -52,10 +58,15 @@ struct Figures {
 
 /// Builds the tree and measures it.
 pub(crate) fn run(args: &Args, globals: &Globals) -> Result<(), CliError> {
-    let mesh = load::mesh(&args.scene, globals)?;
-    let options = args.build.options();
-    let scene = build::shapes(mesh, &options, globals)?;
-    let figures = Figures::of(&scene, args.build.split, &options.cost);
+    let cost = args.build.options().cost;
+    let figures = match from_file(args, globals)? {
+        Some(scene) => Figures::of(scene.shapes(), None, &cost),
+        None => {
+            let mesh = load::mesh(&args.scene, globals)?;
+            let scene = build::shapes(mesh, &args.build.options(), globals)?;
+            Figures::of(&scene, Some(args.build.split.name()), &cost)
+        }
+    };
     if args.table.json {
         return print_json(&figures);
     }
@@ -63,8 +74,14 @@ pub(crate) fn run(args: &Args, globals: &Globals) -> Result<(), CliError> {
     output::print(format!("{table}\nleaves at each depth\n{}", figures.histogram()).as_bytes())
 }
 
+/// The scene of a tree file, if it is one.
+fn from_file(args: &Args, globals: &Globals) -> Result<Option<Scene>, CliError> {
+    let (trust, limits) = (Trust::of(args.tree_file.trusted), &args.build.limits);
+    tree_file::scene(&args.scene, trust, limits.given(), limits, globals)
+}
+
 impl Figures {
-    fn of(scene: &ShapeScene, split: Strategy, cost: &CostModel) -> Self {
+    fn of(scene: &ShapeScene, split: Option<&'static str>, cost: &CostModel) -> Self {
         let (mesh, bounds) = (scene.primitives(), scene.tree().bounds());
         let triangles = mesh.triangles().len();
         let stats: TreeStats = scene.tree().stats(triangles, cost);
@@ -73,7 +90,7 @@ impl Figures {
             vertices: mesh.vertices().len(),
             bounds_min: (!bounds.is_empty()).then_some(bounds.min),
             bounds_max: (!bounds.is_empty()).then_some(bounds.max),
-            split: split.name(),
+            split,
             nodes: stats.nodes,
             leaves: stats.leaves,
             empty_leaves: stats.empty_leaves,
@@ -98,7 +115,7 @@ impl Figures {
             ("vertices", self.vertices.to_string()),
             ("bounds, lower corner", corner(self.bounds_min)),
             ("bounds, upper corner", corner(self.bounds_max)),
-            ("split", self.split.to_owned()),
+            ("split", self.split.unwrap_or("as in the file").to_owned()),
             ("nodes", self.nodes.to_string()),
             ("leaves", self.leaves.to_string()),
             ("empty leaves", self.empty_leaves.to_string()),

@@ -147,7 +147,7 @@ impl<const K: usize> Subtree<K> {
             references.extend_from_slice(&piece.references);
             boxes.extend_from_slice(&piece.boxes);
         }
-        (KdTree { bounds, nodes, references }, boxes)
+        (KdTree { bounds, nodes: nodes.into(), references: references.into() }, boxes)
     }
 }
 

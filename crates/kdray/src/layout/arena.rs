@@ -3,13 +3,13 @@
 use super::home::{Home, Site};
 use super::size::{SLOT_BYTES, Size};
 use super::{TriangleBlock, WideNode};
-use bytemuck::allocation::zeroed_vec;
+use crate::memory::Store;
 use bytemuck::{Pod, Zeroable, must_cast, must_cast_ref};
 
 /// As much as a processor fetches at once.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 #[repr(C, align(64))]
-pub(super) struct Line([u32; 16]);
+pub(crate) struct Line([u32; 16]);
 
 pub(super) const NODE_LINES: usize = size_of::<WideNode>() / size_of::<Line>();
 pub(super) const BLOCK_LINES: usize = size_of::<TriangleBlock>() / size_of::<Line>();
@@ -70,7 +70,7 @@ impl Link {
     }
 
     #[inline(always)]
-    fn line(self) -> usize {
+    pub(super) fn line(self) -> usize {
         self.0 as usize & (Self::MOST_LINES - 1)
     }
 }
@@ -78,7 +78,7 @@ impl Link {
 /// Nodes and blocks.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Arena {
-    lines: Vec<Line>,
+    lines: Store<Line>,
 }
 
 /// Lines of an arena and homes that are yet to be filled, from the first on.
@@ -98,6 +98,11 @@ pub(super) struct NodeRoom<'a> {
 }
 
 impl<'a> Room<'a> {
+    /// All of the lines, with as many homes as there will be nodes.
+    pub(super) fn new(lines: &'a mut [Line], homes: &'a mut [Home]) -> Self {
+        Self { lines, homes, first: Size::default() }
+    }
+
     /// Takes the first part away.
     pub(super) fn take(&mut self, size: Size) -> Self {
         let (lines, other_lines) = std::mem::take(&mut self.lines).split_at_mut(size.lines);
@@ -148,14 +153,14 @@ impl Arena {
         lines < Link::MOST_LINES
     }
 
-    /// An arena of so many lines.
-    pub(super) fn new(lines: usize) -> Self {
-        Self { lines: zeroed_vec(lines) }
+    /// An arena of lines that are filled.
+    pub(super) fn new(lines: Store<Line>) -> Self {
+        Self { lines }
     }
 
-    /// All of it, with as many homes as it has nodes.
-    pub(super) fn room<'a>(&'a mut self, homes: &'a mut [Home]) -> Room<'a> {
-        Room { lines: &mut self.lines, homes, first: Size::default() }
+    /// Nodes and blocks.
+    pub(super) fn lines(&self) -> &Store<Line> {
+        &self.lines
     }
 
     pub(super) fn slot_count(&self) -> usize {
@@ -171,7 +176,7 @@ impl Arena {
     }
 
     pub(super) fn bytes(&self) -> usize {
-        size_of_val(self.lines.as_slice())
+        size_of_val(&*self.lines)
     }
 
     /// The node that a link leads to.

@@ -35,6 +35,16 @@ impl TriangleBlock {
         block
     }
 
+    /// How many triangles there are.
+    pub(super) fn triangle_count(&self) -> u32 {
+        self.corners[0][0].iter().map(|x| u32::from(!x.is_nan())).sum()
+    }
+
+    /// Whether all ids, those of lanes without triangle too, are below `count`.
+    pub(super) fn has_ids_below(&self, count: u32) -> bool {
+        self.ids.iter().fold(true, |all, id| all & (id & ((1 << ID_BITS) - 1) < count))
+    }
+
     /// The eight values of a corner on an axis.
     #[inline(always)]
     pub(crate) fn corner(&self, place: usize, axis: usize) -> &[f32; 8] {

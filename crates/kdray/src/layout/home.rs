@@ -57,6 +57,17 @@ impl Home {
         }
     }
 
+    /// Whether it is that of the node at `link`, which is the child at `place` of a node whose home has
+    /// the number `parent`.
+    pub(super) fn is_at(&self, link: Link, parent: u32, place: u32) -> bool {
+        self.node == (link.to_bits() | place << PLACE_SHIFT) && self.parent == parent
+    }
+
+    /// Whether the cell is all of space, as the root's is.
+    pub(super) fn is_everywhere(&self) -> bool {
+        self.lower == [f32::NEG_INFINITY; 3] && self.upper == [f32::NEG_INFINITY; 3]
+    }
+
     /// The lower faces in the lanes 0 to 2, the upper ones, negated, in the lanes 4 to 6; in the
     /// others anything.
     #[inline(always)]

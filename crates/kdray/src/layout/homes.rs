@@ -3,13 +3,14 @@
 use super::arena::Arena;
 use super::home::Home;
 use super::{Hint, Link, TriangleBlock};
+use crate::memory::Store;
 
 /// The homes of a wide tree's nodes, numbered in the order in which the nodes lie in memory.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Homes {
-    homes: Vec<Home>,
+    homes: Store<Home>,
     /// For each slot of the arena in which a block begins the number of the home of the node above.
-    above: Vec<u32>,
+    above: Store<u32>,
 }
 
 impl Homes {
@@ -20,8 +21,19 @@ impl Homes {
 
     /// Finds the blocks below each node. The first home is the root's.
     pub(super) fn new(homes: Vec<Home>, arena: &Arena) -> Self {
+        let above = Self::above_each_slot(&homes, arena);
+        Self { homes: homes.into(), above: above.into() }
+    }
+
+    /// Homes with what [`above_each_slot`](Self::above_each_slot) says.
+    pub(super) fn of_stores(homes: Store<Home>, above: Store<u32>) -> Self {
+        Self { homes, above }
+    }
+
+    /// For each slot of the arena in which a block begins the number of the home of the node above.
+    pub(super) fn above_each_slot(homes: &[Home], arena: &Arena) -> Vec<u32> {
         let mut above = vec![0; arena.slot_count()];
-        for (number, home) in (0..).zip(&homes) {
+        for (number, home) in (0..).zip(homes) {
             for &bits in arena.node(home.link()).links() {
                 let link = Link::from_bits(bits);
                 if link.is_leaf() {
@@ -30,7 +42,7 @@ impl Homes {
                 }
             }
         }
-        Self { homes, above }
+        above
     }
 
     pub(super) fn bytes(&self) -> usize {
@@ -54,9 +66,19 @@ impl Homes {
         self.above.get(arena.slot_of(block)).map_or(Hint::NONE, |&number| Hint(number))
     }
 
-    #[cfg(test)]
-    pub(super) fn list(&self) -> &[Home] {
+    /// All homes, the root's first.
+    pub(super) fn list(&self) -> &Store<Home> {
         &self.homes
+    }
+
+    /// The number of the home of the node at `link`. Homes stand in the order of their nodes' lines.
+    pub(super) fn number_at(&self, link: Link) -> u32 {
+        self.homes.partition_point(|home| home.link().line() < link.line()) as u32
+    }
+
+    /// For each slot of the arena in which a block begins the number of the home of the node above.
+    pub(super) fn numbers_above(&self) -> &Store<u32> {
+        &self.above
     }
 }
 
@@ -91,7 +113,7 @@ mod tests {
         let few = BuildOptions { leaf_size: 100, ..BuildOptions::preset(Preset::Best) };
         for options in [BuildOptions::preset(Preset::Fast), few] {
             let tree = wide(&mesh, &options);
-            for home in tree.homes.list() {
+            for home in tree.homes.list().iter() {
                 let ids = below(&tree, home.link());
                 for id in 0..2000 {
                     if mesh.corners(id).iter().any(|corner| is_inside(home, corner)) {
@@ -105,7 +127,7 @@ mod tests {
     #[test]
     fn homes_lead_up_and_hints_lead_to_homes() {
         let tree = wide(&soup(2000), &BuildOptions::preset(Preset::Fast));
-        for home in tree.homes.list() {
+        for home in tree.homes.list().iter() {
             let above = tree.home_above(home);
             if home.link() != Link::ROOT {
                 let links = tree.node(above.link()).links();

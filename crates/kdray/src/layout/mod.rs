@@ -6,19 +6,26 @@
 mod arena;
 mod block;
 mod collapse;
+mod error;
 mod hint;
 mod home;
 mod homes;
+mod matching;
 mod node;
+mod parts;
 mod plan;
 mod size;
+mod structure;
 mod treelet;
+mod verify;
 mod wide;
 
 pub(crate) use arena::Link;
 pub(crate) use block::TriangleBlock;
+pub use error::WideError;
 pub use hint::Hint;
 pub(crate) use home::Home;
 pub(crate) use node::WideNode;
+pub(crate) use parts::WideParts;
 pub(crate) use wide::STACK_SIZE;
 pub use wide::WideTree;

@@ -42,6 +42,33 @@ impl WideNode {
             all.enumerate().fold(0, |order, (i, place)| order | u32::from(place) << (4 * i));
     }
 
+    /// How many children there are.
+    pub(super) fn child_count(&self) -> usize {
+        self.links.iter().filter(|&&bits| Link::from_bits(bits) != Link::ROOT).count()
+    }
+
+    /// The box of the child at a place.
+    pub(super) fn child_box(&self, place: usize) -> Aabb<3> {
+        let corner = |side: usize| [0, 1, 2].map(|axis| self.planes[axis][side][place]);
+        Aabb { min: corner(0), max: corner(1) }
+    }
+
+    /// Whether all planes of places without child are where no ray gets.
+    pub(super) fn has_no_box_without_child(&self) -> bool {
+        let mut is_far = [true; Self::WIDTH];
+        for row in self.planes.as_flattened() {
+            is_far.iter_mut().zip(row).for_each(|(far, &x)| *far &= x == f32::INFINITY);
+        }
+        let mut places = self.links.iter().zip(is_far);
+        places.all(|(&bits, is_far)| is_far || Link::from_bits(bits) != Link::ROOT)
+    }
+
+    /// Whether each place comes once in the order of each octant.
+    pub(super) fn orders_all(&self) -> bool {
+        let seen = |order: u32| (0..8).fold(0_u32, |seen, i| seen | 1 << (order >> (4 * i) & 15));
+        self.order.iter().fold(true, |all, &order| all & (seen(order) == 0xff))
+    }
+
     /// The lower and the upper planes of the boxes on an axis.
     #[inline(always)]
     pub(crate) fn planes(&self, axis: usize) -> &[[f32; 8]; 2] {

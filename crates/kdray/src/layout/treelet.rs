@@ -52,6 +52,11 @@ impl Treelet {
         }
     }
 
+    /// Says that a node is cut open; neither child is empty.
+    pub(super) fn push_cut(&mut self, node: u32, axis: usize, split: f32, lower: u32, upper: u32) {
+        self.cuts.push(Cut { node, axis, split, lower, upper });
+    }
+
     /// The cell of an end, with the empty ones beside it that nothing is in; `cell` is the treelet's.
     pub(super) fn cell(&self, end: u32, mut cell: Aabb<3>) -> Aabb<3> {
         let mut at = self.cuts.first().map(|cut| cut.node);

@@ -19,6 +19,9 @@ use bytemuck::allocation::zeroed_vec;
 /// made wide.
 pub(crate) const STACK_SIZE: usize = 256;
 
+/// By how much boxes are made larger, and homes smaller, in units of u R ([`margin`]).
+pub(super) const FULL_MARGIN: f32 = 12.0;
+
 /// Half the distance from 1 to the next f32.
 const ROUNDING: f32 = f32::EPSILON / 2.0;
 
@@ -30,9 +33,9 @@ const ROUNDING: f32 = f32::EPSILON / 2.0;
 /// same triangles as those of the canonical tree.
 #[derive(Clone, Debug)]
 pub struct WideTree {
-    arena: Arena,
+    pub(super) arena: Arena,
     pub(super) homes: Homes,
-    reach: f32,
+    pub(super) reach: f32,
 }
 
 /// What is known of a subtree once it is placed.
@@ -64,7 +67,7 @@ impl WideTree {
         options: &BuildOptions,
     ) -> Result<Option<Self>, BuildError> {
         let Some(reach) = reach(tree.bounds()) else { return Ok(None) };
-        let pad = f64::from(12.0 * ROUNDING * reach);
+        let pad = margin(FULL_MARGIN, reach);
         let collapse = &Collapse::new(tree, boxes);
         let plan = Plan::new(collapse);
         let held =
@@ -74,16 +77,16 @@ impl WideTree {
         }
         let own = plan.size.bytes() + Homes::bytes_of(plan.size.slots(), plan.size.nodes);
         options.check_memory((held + own) as u64)?;
-        let mut arena = Arena::new(plan.size.lines);
+        let mut lines = zeroed_vec(plan.size.lines);
         let mut homes = zeroed_vec::<Home>(plan.size.nodes);
         let placer = Placer { mesh, collapse, pad };
-        let mut room = arena.room(&mut homes);
+        let mut room = Room::new(&mut lines, &mut homes);
         let root = placer.place_node(0, &Site::ROOT, &plan.children, &mut room);
         debug_assert!(room.is_empty(), "the plan is wrong");
-        // Twice, for those that begin below the root keep what is beside the way up on it.
-        let need = 2 * root.stack + 1 + WideNode::WIDTH;
         debug_assert_eq!(root.link, Link::ROOT);
-        Ok((need <= STACK_SIZE).then(|| Self { homes: Homes::new(homes, &arena), arena, reach }))
+        let arena = Arena::new(lines.into());
+        let fits = stack_size(root.stack) <= STACK_SIZE;
+        Ok(fits.then(|| Self { homes: Homes::new(homes, &arena), arena, reach }))
     }
 
     /// How far from zero, on any axis, a ray may start so that the boxes' margins cover what
@@ -125,8 +128,19 @@ impl WideTree {
     }
 }
 
+/// So many units of u R, with u half the distance from 1 to the next f32 and R the reach.
+pub(super) fn margin(units: f32, reach: f32) -> f64 {
+    f64::from(units * ROUNDING * reach)
+}
+
+/// How much room a traversal's stack needs if what waits beside the way down is so much at the most.
+/// Twice, for those that begin below the root keep what is beside the way up on it.
+pub(super) fn stack_size(beside: usize) -> usize {
+    2 * beside + 1 + WideNode::WIDTH
+}
+
 /// See [`WideTree::reach`]; `None` if it is out of range.
-fn reach(bounds: &Aabb<3>) -> Option<f32> {
+pub(super) fn reach(bounds: &Aabb<3>) -> Option<f32> {
     const LARGEST: f64 = (1_u64 << 32) as f64;
     let corners = bounds.min.iter().chain(&bounds.max);
     let farthest = corners.fold(0.0_f32, |most, x| most.max(x.abs()));

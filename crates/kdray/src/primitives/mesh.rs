@@ -2,6 +2,7 @@
 
 use super::{Hit, HitRule, Intersect, Primitives, intersect_triangle};
 use crate::geometry::{Aabb, Ray, clipped_bounds, split_bounds};
+use crate::memory::Store;
 use thiserror::Error;
 
 /// Triangles that share vertices: positions, and three indices into them a triangle.
@@ -9,8 +10,8 @@ use thiserror::Error;
 /// Degenerate triangles are kept and never hit; duplicates are kept; an empty mesh is valid.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TriangleMesh {
-    vertices: Vec<[f32; 3]>,
-    triangles: Vec<[u32; 3]>,
+    vertices: Store<[f32; 3]>,
+    triangles: Store<[u32; 3]>,
 }
 
 /// Why a mesh cannot be used.
@@ -58,7 +59,7 @@ impl TriangleMesh {
         for (index, triangle) in triangles.iter().enumerate() {
             check_triangle(&vertices, index, triangle)?;
         }
-        Ok(Self { vertices, triangles })
+        Ok(Self { vertices: vertices.into(), triangles: triangles.into() })
     }
 
     /// Like [`new`](Self::new), but drops the triangles it would refuse, and returns the indices
@@ -97,6 +98,36 @@ impl TriangleMesh {
         }
         let triangles = (0..count as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]);
         Self::new(vertices, triangles.collect())
+    }
+
+    /// A mesh of arrays that come from a file, after the checks of [`new`](Self::new), which take less
+    /// time where nothing is wrong.
+    pub(crate) fn of_stores(
+        vertices: Store<[f32; 3]>,
+        triangles: Store<[u32; 3]>,
+    ) -> Result<Self, MeshError> {
+        if triangles.len() >= Self::MAX_TRIANGLES {
+            return Err(MeshError::TooManyTriangles(triangles.len()));
+        }
+        let largest = triangles.as_flattened().iter().fold(0, |largest, &index| index.max(largest));
+        let finite = vertices.as_flattened().iter().fold(true, |all, x| all & x.is_finite());
+        // If not all is as it should be, perhaps what is wrong is not used.
+        if !finite || largest as usize >= vertices.len() {
+            let mut numbered = triangles.iter().enumerate();
+            numbered
+                .try_for_each(|(index, triangle)| check_triangle(&vertices, index, triangle))?;
+        }
+        Ok(Self { vertices, triangles })
+    }
+
+    /// The vertex positions, to be saved.
+    pub(crate) fn vertex_store(&self) -> &Store<[f32; 3]> {
+        &self.vertices
+    }
+
+    /// The triangles, to be saved.
+    pub(crate) fn triangle_store(&self) -> &Store<[u32; 3]> {
+        &self.triangles
     }
 
     /// The vertex positions.

@@ -142,6 +142,9 @@ fn is_hit_exactly(
     ray: &Ray<3>,
     rule: HitRule,
 ) -> bool {
+    if !are_finite(corners) {
+        return false;
+    }
     let edges = directed_edges(corners);
     let signs = [0, 1, 2].map(|i| {
         if values[i] > error {
@@ -175,6 +178,9 @@ fn t_exactly(corners: &[[f32; 3]; 3], ray: &Ray<3>, den: f64) -> f64 {
 #[cold]
 #[inline(never)]
 fn values_exactly(corners: &[[f32; 3]; 3], ray: &Ray<3>) -> (f64, f64, f64, bool) {
+    if !are_finite(corners) {
+        return (f64::NAN, 0.0, 0.0, false);
+    }
     let [w, u, v] = directed_edges(corners).map(|(p, q)| edge_function(ray, p, q));
     let mut den = w;
     den.add_all(&u);
@@ -183,6 +189,12 @@ fn values_exactly(corners: &[[f32; 3]; 3], ray: &Ray<3>) -> (f64, f64, f64, bool
     let den = den.value();
     let t = exact::volume(ray.origin, corners.map(|p| p.map(f64::from))).value().divided_by(den);
     (t, u.value().divided_by(den), v.value().divided_by(den), front)
+}
+
+/// Whether these are corners of a triangle at all. Those in a tree file that was not verified need not
+/// be; none of them is hit.
+fn are_finite(corners: &[[f32; 3]; 3]) -> bool {
+    corners.as_flattened().iter().all(|x| x.is_finite())
 }
 
 /// The edges of W, U and V: each runs opposite a, b and c.
@@ -249,6 +261,24 @@ mod tests {
         for rule in [HitRule::Touching, HitRule::Crossing] {
             assert_eq!(intersect_triangle(&needle, 0, &ray, rule), None);
             assert_eq!(intersect_triangle(&CORNERS, 0, &in_plane, rule), None);
+        }
+    }
+
+    #[test]
+    fn corners_that_are_not_finite_are_missed() {
+        for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+            for place in 0..9 {
+                let mut corners = CORNERS;
+                corners.as_flattened_mut()[place] = bad;
+                for origin in [[1.0, 1.0, 0.0], [0.0; 3], [2.0, 2.0, 5.0], [1.0, 0.0, 5.0]] {
+                    for direction in [UP, [1.0, 0.0, 0.0], [0.3, 0.4, 0.5]] {
+                        let ray = Ray::new(origin, direction);
+                        for rule in [HitRule::Touching, HitRule::Crossing] {
+                            assert_eq!(intersect_triangle(&corners, 0, &ray, rule), None);
+                        }
+                    }
+                }
+            }
         }
     }
 

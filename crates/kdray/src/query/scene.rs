@@ -4,6 +4,7 @@ use super::{Arithmetic, ShapeScene};
 use crate::build::{BuildError, BuildOptions, BuildProgress};
 use crate::geometry::Ray;
 use crate::layout::{TriangleBlock, WideTree};
+use crate::memory::{SharedBytes, Source};
 use crate::primitives::{Hit, TriangleMesh};
 use crate::simd::InstructionSet;
 use crate::traverse::AllHits;
@@ -39,6 +40,8 @@ pub struct Scene {
 pub(super) struct Trees {
     pub(super) shapes: ShapeScene<TriangleMesh>,
     pub(super) wide: Option<WideTree>,
+    /// The file that they lie in, if any.
+    source: Option<Source>,
 }
 
 impl Scene {
@@ -70,11 +73,31 @@ impl Scene {
         } else {
             (ShapeScene::build_with_progress(mesh, options, progress)?, None)
         };
-        Ok(Self {
-            trees: Arc::new(Trees { shapes, wide }),
+        Ok(Self::of(Trees { shapes, wide, source: None }))
+    }
+
+    /// Trees over `mesh` as they are, which lie in the bytes of `source` if it is given.
+    pub(crate) fn of_trees(
+        mesh: TriangleMesh,
+        tree: KdTree,
+        wide: Option<WideTree>,
+        source: Option<SharedBytes>,
+    ) -> Self {
+        let shapes = ShapeScene::of_tree(mesh, tree);
+        Self::of(Trees { shapes, wide, source: source.map(Source) })
+    }
+
+    fn of(trees: Trees) -> Self {
+        Self {
+            trees: Arc::new(trees),
             arithmetic: Arithmetic::default(),
             instructions: InstructionSet::best(),
-        })
+        }
+    }
+
+    /// The bytes that the trees lie in, if they came with the scene.
+    pub(crate) fn source(&self) -> Option<&[u8]> {
+        self.trees.source.as_ref().map(|Source(bytes)| (**bytes).as_ref())
     }
 
     /// The same scene, with hits decided by `arithmetic`.

@@ -219,8 +219,8 @@ mod tests {
     fn two_uprights() -> (KdTree<2>, Segments) {
         let tree = KdTree {
             bounds: Aabb { min: [0.0; 2], max: [2.0, 1.0] },
-            nodes: vec![Node::inner(0, 1.0, 2), Node::leaf(0, 1), Node::leaf(1, 1)],
-            references: vec![0, 1],
+            nodes: vec![Node::inner(0, 1.0, 2), Node::leaf(0, 1), Node::leaf(1, 1)].into(),
+            references: vec![0, 1].into(),
         };
         let upright = |x| [[x, 0.0], [x, 1.0]];
         (tree, Segments::new(vec![upright(0.5), upright(1.5)]).unwrap())

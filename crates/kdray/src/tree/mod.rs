@@ -4,6 +4,7 @@ mod cost;
 mod error;
 mod node;
 mod stats;
+mod structure;
 mod validate;
 
 pub use cost::{CostModel, CostModelError, Termination};
@@ -12,6 +13,7 @@ pub use node::{Node, NodeKind};
 pub use stats::TreeStats;
 
 use crate::geometry::Aabb;
+use crate::memory::Store;
 
 /// No tree is deeper than this; traversal stacks hold as many entries.
 pub const MAX_DEPTH: usize = 64;
@@ -23,8 +25,8 @@ pub const MAX_DEPTH: usize = 64;
 #[derive(Clone, Debug, PartialEq)]
 pub struct KdTree<const K: usize = 3> {
     pub(crate) bounds: Aabb<K>,
-    pub(crate) nodes: Vec<Node>,
-    pub(crate) references: Vec<u32>,
+    pub(crate) nodes: Store<Node>,
+    pub(crate) references: Store<u32>,
 }
 
 /// A node with the box that it stands for.

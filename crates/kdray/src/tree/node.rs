@@ -1,9 +1,12 @@
 //! The 8-byte node.
 
+use bytemuck::{Pod, Zeroable};
+
 /// A split or a leaf in 8 bytes. The two low bits of `tag` are the axis of a split, or 3 for a
 /// leaf; the other 30 are the index of the upper child, or how many references the leaf has.
 /// `payload` is the position of the split, or the index of the leaf's first reference.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
+#[repr(C)]
 pub struct Node {
     payload: u32,
     tag: u32,

@@ -90,8 +90,9 @@ mod tests {
                 Node::inner(1, 1.0, 4),
                 Node::leaf(0, 1),
                 Node::leaf(1, 2),
-            ],
-            references: vec![0, 0, 1],
+            ]
+            .into(),
+            references: vec![0, 0, 1].into(),
         };
         let cost = CostModel { traversal: 1.0, intersection: 3.0, ..CostModel::default() };
         let expected = TreeStats {
@@ -115,8 +116,11 @@ mod tests {
 
     #[test]
     fn an_empty_tree_costs_nothing() {
-        let tree =
-            KdTree::<3> { bounds: Aabb::EMPTY, nodes: vec![Node::leaf(0, 0)], references: vec![] };
+        let tree = KdTree::<3> {
+            bounds: Aabb::EMPTY,
+            nodes: vec![Node::leaf(0, 0)].into(),
+            references: vec![].into(),
+        };
         let stats = tree.stats(0, &CostModel::default());
         assert_eq!((stats.sah_cost, stats.references_per_primitive), (0.0, 0.0));
     }

@@ -27,8 +27,8 @@ impl<const K: usize> KdTree<K> {
         self.check_bounds(primitives)?;
         let largest = largest_coordinate(&self.bounds);
         let check = ContentCheck { tree: self, primitives, largest };
-        check.leaves_touch_what_they_list(&leaves)?;
-        (0..primitives.count() as u32).try_for_each(|id| check.is_listed_everywhere(id))
+        first_error(leaves.len(), |leaf| check.touches_what_it_lists(&leaves[leaf]))?;
+        first_error(primitives.count(), |id| check.is_listed_everywhere(id as u32))
     }
 
     /// The leaves in order, if the nodes are a tree of cells within cells.
@@ -120,6 +120,25 @@ impl<const K: usize> KdTree<K> {
     }
 }
 
+/// The first error of `check` for the numbers below `end`.
+#[cfg(feature = "rayon")]
+fn first_error(
+    end: usize,
+    check: impl Fn(usize) -> Result<(), TreeError> + Sync,
+) -> Result<(), TreeError> {
+    use rayon::prelude::*;
+    (0..end).into_par_iter().map(&check).find_first(Result::is_err).unwrap_or(Ok(()))
+}
+
+/// The first error of `check` for the numbers below `end`.
+#[cfg(not(feature = "rayon"))]
+fn first_error(
+    end: usize,
+    check: impl Fn(usize) -> Result<(), TreeError>,
+) -> Result<(), TreeError> {
+    (0..end).try_for_each(check)
+}
+
 /// The checks that look at the primitives' shapes.
 struct ContentCheck<'a, P, const K: usize> {
     tree: &'a KdTree<K>,
@@ -136,16 +155,15 @@ fn slack(x: f32, largest: f32) -> f32 {
 }
 
 impl<P: Primitives<K>, const K: usize> ContentCheck<'_, P, K> {
-    fn leaves_touch_what_they_list(&self, leaves: &[Cell<K>]) -> Result<(), TreeError> {
-        for Cell { node, bounds, .. } in leaves {
-            let grown = Aabb {
-                min: bounds.min.map(|x| x - slack(x, self.largest)),
-                max: bounds.max.map(|x| x + slack(x, self.largest)),
-            };
-            for &primitive in self.tree.leaf_primitives(*node) {
-                if self.primitives.clipped_bounds(primitive, &grown).is_none() {
-                    return Err(TreeError::DoesNotTouch { node: *node, primitive });
-                }
+    fn touches_what_it_lists(&self, leaf: &Cell<K>) -> Result<(), TreeError> {
+        let Cell { node, bounds, .. } = *leaf;
+        let grown = Aabb {
+            min: bounds.min.map(|x| x - slack(x, self.largest)),
+            max: bounds.max.map(|x| x + slack(x, self.largest)),
+        };
+        for &primitive in self.tree.leaf_primitives(node) {
+            if self.primitives.clipped_bounds(primitive, &grown).is_none() {
+                return Err(TreeError::DoesNotTouch { node, primitive });
             }
         }
         Ok(())
@@ -250,16 +268,16 @@ mod tests {
 
     /// The tree with other lists in its leaves.
     fn with_lists(tree: &KdTree, list: impl Fn(u32) -> Vec<u32>) -> KdTree {
-        let mut changed = KdTree { references: Vec::new(), ..tree.clone() };
+        let (mut nodes, mut references) = (tree.nodes.to_vec(), Vec::new());
         for node in 0..tree.nodes.len() as u32 {
             if let NodeKind::Leaf { .. } = tree.nodes[node as usize].kind() {
                 let list = list(node);
-                let first = changed.references.len() as u32;
-                changed.nodes[node as usize] = Node::leaf(first, list.len() as u32);
-                changed.references.extend(list);
+                let first = references.len() as u32;
+                nodes[node as usize] = Node::leaf(first, list.len() as u32);
+                references.extend(list);
             }
         }
-        changed
+        KdTree { bounds: tree.bounds, nodes: nodes.into(), references: references.into() }
     }
 
     /// All pairs of a leaf and a primitive that it lists.
@@ -277,23 +295,24 @@ mod tests {
 
     #[test]
     fn nodes_out_of_place_are_named() {
-        assert_eq!(broken(|tree| tree.nodes.clear()), TreeError::NoRoot);
+        assert_eq!(broken(|tree| tree.nodes.edit(Vec::clear)), TreeError::NoRoot);
         let error = broken(|tree| {
             let (axis, split, _) = root(tree);
-            tree.nodes[0] = Node::inner(axis, split, tree.nodes.len() as u32);
+            let end = tree.nodes.len() as u32;
+            tree.nodes.edit(|nodes| nodes[0] = Node::inner(axis, split, end));
         });
         assert!(matches!(error, TreeError::ChildOutOfRange { node: 0, .. }), "{error}");
         let error = broken(|tree| {
             let (axis, split, above) = root(tree);
-            tree.nodes[0] = Node::inner(axis, split, above + 1);
+            tree.nodes.edit(|nodes| nodes[0] = Node::inner(axis, split, above + 1));
         });
         assert!(matches!(error, TreeError::NotDepthFirst { .. }), "{error}");
         let error = broken(|tree| {
             let (axis, split, _) = root(tree);
-            tree.nodes[0] = Node::inner(axis, split, 0);
+            tree.nodes.edit(|nodes| nodes[0] = Node::inner(axis, split, 0));
         });
         assert!(matches!(error, TreeError::NotDepthFirst { node: 0, .. }), "a cycle: {error}");
-        let error = broken(|tree| tree.nodes.push(Node::leaf(0, 0)));
+        let error = broken(|tree| tree.nodes.edit(|nodes| nodes.push(Node::leaf(0, 0))));
         assert!(matches!(error, TreeError::UnreachedNodes { .. }), "{error}");
     }
 
@@ -302,7 +321,7 @@ mod tests {
         for outside in [100.0, -100.0, f32::NAN, f32::INFINITY] {
             let error = broken(|tree| {
                 let (axis, _, above) = root(tree);
-                tree.nodes[0] = Node::inner(axis, outside, above);
+                tree.nodes.edit(|nodes| nodes[0] = Node::inner(axis, outside, above));
             });
             assert!(matches!(error, TreeError::SplitOutsideCell { node: 0, .. }), "{error}");
         }
@@ -316,7 +335,8 @@ mod tests {
     fn a_root_that_leaves_out_a_primitive_is_named() {
         let segments = Segments::new(vec![[[0.0, 0.0], [1.0, 1.0]], [[1.0, 0.0], [3.0, 0.0]]]);
         let bounds = Aabb { min: [0.0, 0.0], max: [2.0, 1.0] };
-        let tree = KdTree { bounds, nodes: vec![Node::leaf(0, 2)], references: vec![0, 1] };
+        let tree =
+            KdTree { bounds, nodes: vec![Node::leaf(0, 2)].into(), references: vec![0, 1].into() };
         let expected = TreeError::OutsideBounds { primitive: 1 };
         assert_eq!(tree.validate(&segments.unwrap()), Err(expected));
     }
@@ -326,7 +346,7 @@ mod tests {
         let segments = Segments::new(vec![[[0.0, 0.0], [1.0, 1.0]]]).unwrap();
         let bounds = Aabb { min: [0.0; 2], max: [1.0; 2] };
         let nodes = vec![Node::inner(2, 0.5, 2), Node::leaf(0, 1), Node::leaf(1, 1)];
-        let tree = KdTree { bounds, nodes, references: vec![0, 0] };
+        let tree = KdTree { bounds, nodes: nodes.into(), references: vec![0, 0].into() };
         let expected = TreeError::BadAxis { node: 0, axis: 2, dimensions: 2 };
         assert_eq!(tree.validate(&segments), Err(expected));
     }
@@ -336,7 +356,11 @@ mod tests {
         let chain = |splits: u32| {
             let inner = (0..splits).map(|i| Node::inner(0, 0.0, 2 * splits - i));
             let nodes = inner.chain((0..=splits).map(|_| Node::leaf(0, 0))).collect();
-            KdTree { bounds: Aabb { min: [0.0; 3], max: [1.0; 3] }, nodes, references: vec![] }
+            KdTree {
+                bounds: Aabb { min: [0.0; 3], max: [1.0; 3] },
+                nodes,
+                references: vec![].into(),
+            }
         };
         let empty = TriangleMesh::new(vec![], vec![]).unwrap();
         assert_eq!(chain(64).validate(&empty), Ok(()));
@@ -352,17 +376,17 @@ mod tests {
         };
         let error = broken(|tree| {
             let leaf = first_leaf(tree);
-            tree.nodes[leaf] = Node::leaf(1, 1);
+            tree.nodes.edit(|nodes| nodes[leaf] = Node::leaf(1, 1));
         });
         assert!(matches!(error, TreeError::ListsDoNotTile { first: 1, expected: 0, .. }));
         let error = broken(|tree| {
             let leaf = first_leaf(tree);
-            tree.nodes[leaf] = Node::leaf(0, 1 << 29);
+            tree.nodes.edit(|nodes| nodes[leaf] = Node::leaf(0, 1 << 29));
         });
         assert!(matches!(error, TreeError::ListOutOfRange { .. }), "{error}");
-        let error = broken(|tree| tree.references.push(0));
+        let error = broken(|tree| tree.references.edit(|all| all.push(0)));
         assert!(matches!(error, TreeError::UnlistedReferences { .. }), "{error}");
-        let error = broken(|tree| tree.references[0] = 60);
+        let error = broken(|tree| tree.references.edit(|all| all[0] = 60));
         assert!(matches!(error, TreeError::NoSuchPrimitive { primitive: 60, count: 60, .. }));
         let error = broken(|tree| {
             *tree = with_lists(tree, |leaf| tree.leaf_primitives(leaf).repeat(2));
@@ -429,7 +453,7 @@ mod tests {
         for by in [-0.02, 0.02] {
             let error = broken(|tree| {
                 let (axis, split, above) = root(tree);
-                tree.nodes[0] = Node::inner(axis, split + by, above);
+                tree.nodes.edit(|nodes| nodes[0] = Node::inner(axis, split + by, above));
             });
             let expected = matches!(
                 error,

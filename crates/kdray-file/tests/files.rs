@@ -1,0 +1,141 @@
+//! Tree files on the disk.
+
+use kdray::{BuildOptions, FileError, Ray, Scene, TriangleMesh};
+use kdray_file::{TreeFileError, is_tree_file, load, map, save};
+use std::{fs, path::Path};
+use tempfile::TempDir;
+
+type Done = Result<(), Box<dyn std::error::Error>>;
+
+/// A grid of triangles.
+fn scene(side: u32) -> Scene {
+    let at = |i: u32, j: u32| [i as f32, j as f32, ((i * 7 + j * 3) % 5) as f32];
+    let soup = (0..side).flat_map(|i| {
+        (0..side).flat_map(move |j| {
+            let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+            [[a, b, c], [a, c, d]]
+        })
+    });
+    let mesh = TriangleMesh::from_soup(soup).expect("finite corners");
+    Scene::build(mesh, &BuildOptions::default()).expect("a small mesh")
+}
+
+/// A saved scene in a folder of its own.
+fn saved(side: u32) -> (TempDir, Scene) {
+    let (folder, scene) = (TempDir::new().expect("a temporary folder"), scene(side));
+    save(&scene, &folder.path().join("tree")).expect("the folder can be written to");
+    (folder, scene)
+}
+
+/// The reason why a file is refused, the same by both ways.
+fn refused(path: &Path) -> FileError {
+    let reason = |result: Result<Scene, TreeFileError>| match result {
+        Err(TreeFileError::File { source, .. }) => source,
+        other => panic!("{other:?}"),
+    };
+    let (loaded, mapped) = (reason(load(path, None)), reason(map(path)));
+    assert_eq!(loaded, mapped);
+    loaded
+}
+
+#[test]
+fn both_ways_give_the_same_hits() -> Done {
+    let (folder, built) = saved(40);
+    let path = folder.path().join("tree");
+    assert!(is_tree_file(&path)?);
+    let (loaded, mapped) = (load(&path, None)?, map(&path)?);
+    assert_eq!(mapped.verify(), Ok(()));
+    let mut hits = 0;
+    for i in 0..400 {
+        let origin = [f64::from(i % 40) + 0.3, f64::from(i / 10) + 0.6, 9.0];
+        let ray = Ray::new(origin, [0.01 * f64::from(i % 7), 0.02, -1.0]);
+        let hit = built.closest_hit(&ray);
+        hits += usize::from(hit.is_some());
+        assert_eq!((loaded.closest_hit(&ray), mapped.closest_hit(&ray)), (hit, hit));
+    }
+    assert!(hits > 300, "{hits}");
+    Ok(())
+}
+
+#[test]
+fn a_new_file_in_its_place_leaves_the_mapped_one() -> Done {
+    let (folder, built) = saved(20);
+    let path = folder.path().join("tree");
+    let mapped = map(&path)?;
+    save(&scene(3), &path)?;
+    assert_eq!(mapped.verify(), Ok(()));
+    assert_eq!(mapped.mesh(), built.mesh());
+    assert_eq!(load(&path, None)?.mesh().triangles().len(), 18);
+    assert_eq!(fs::read_dir(folder.path())?.count(), 1, "no temporary file is left");
+    Ok(())
+}
+
+#[test]
+fn what_is_no_tree_file_is_refused() -> Done {
+    let (folder, _) = saved(3);
+    let path = folder.path().join("tree");
+    let bytes = fs::read(&path)?;
+    let bad = folder.path().join("bad");
+    for other in [&b""[..], b"ply\nformat ascii 1.0\n"] {
+        fs::write(&bad, other)?;
+        assert!(!is_tree_file(&bad)?);
+        assert_eq!(refused(&bad), FileError::NotATreeFile);
+    }
+    for length in [100, 255, 256, 1000, bytes.len() - 1] {
+        fs::write(&bad, &bytes[..length])?;
+        assert!(is_tree_file(&bad)?);
+        assert!(matches!(refused(&bad), FileError::Length { .. }), "{length}");
+    }
+    let missing = folder.path().join("missing");
+    for path in [missing.as_path(), folder.path()] {
+        assert!(matches!(load(path, None), Err(TreeFileError::Io { .. })));
+        assert!(matches!(map(path), Err(TreeFileError::Io { .. })));
+    }
+    for path in [folder.path(), &missing.join("tree")] {
+        assert!(matches!(save(&scene(2), path), Err(TreeFileError::Io { .. })));
+    }
+    Ok(())
+}
+
+#[test]
+fn damage_is_found_by_loading_and_by_verifying() -> Done {
+    let (folder, _) = saved(3);
+    let path = folder.path().join("tree");
+    let mut bytes = fs::read(&path)?;
+    // In a coordinate: the mesh is another, but a valid one.
+    bytes[256] ^= 1;
+    fs::write(&path, &bytes)?;
+    let loaded = load(&path, None);
+    assert!(matches!(loaded, Err(TreeFileError::File { source: FileError::Damaged, .. })));
+    assert_eq!(map(&path)?.verify(), Err(FileError::Damaged));
+    Ok(())
+}
+
+#[test]
+fn a_file_that_takes_too_much_memory_is_refused() {
+    let (folder, _) = saved(3);
+    let path = folder.path().join("tree");
+    let length = fs::metadata(&path).expect("it is there").len();
+    assert!(load(&path, Some(2 * length)).is_ok());
+    let refused = load(&path, Some(2 * length - 1));
+    let expected = (2 * length, 2 * length - 1);
+    assert!(
+        matches!(refused, Err(TreeFileError::Memory { needed, limit, .. }) if (needed, limit) == expected)
+    );
+}
+
+#[cfg(unix)]
+#[test]
+fn a_long_file_without_content_takes_no_memory() -> Done {
+    // A terabyte of zeros that lies nowhere.
+    let folder = TempDir::new()?;
+    let path = folder.path().join("sparse");
+    let bytes = {
+        let (small, _) = saved(3);
+        fs::read(small.path().join("tree"))?
+    };
+    fs::write(&path, &bytes[..256])?;
+    fs::File::options().write(true).open(&path)?.set_len(1 << 40)?;
+    assert!(matches!(refused(&path), FileError::Length { found, .. } if found == 1 << 40));
+    Ok(())
+}
