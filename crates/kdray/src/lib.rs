@@ -21,7 +21,7 @@ pub mod tree;
 pub use build::{BuildError, BuildOptions, BuildProgress, CostModel, Preset, Strategy};
 pub use geometry::{Aabb, Interval, Ray, RayError, RayPacket};
 pub use layout::Hint;
-pub use primitives::{Hit, MeshError, Side, TriangleMesh};
+pub use primitives::{ClosestPoint, Closure, Hit, MeshError, Side, TriangleMesh};
 pub use query::{Arithmetic, PacketWork, Scene, ShapeScene};
 pub use simd::InstructionSet;
 pub use tree::{KdTree, TreeStats};

@@ -2,10 +2,18 @@
 
 mod arithmetic;
 mod batch;
+mod closest_point;
+mod contains;
+mod filtered;
 mod near;
 mod packet;
+mod points;
 mod scene;
 mod shape_scene;
+mod signed_distance;
+mod thickness;
+mod visible;
+mod winding_number;
 
 pub use crate::traverse::wide::packet::PacketWork;
 pub use arithmetic::Arithmetic;

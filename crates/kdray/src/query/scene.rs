@@ -1,5 +1,6 @@
 //! Triangles with their trees.
 
+use super::points::ForPoints;
 use super::{Arithmetic, ShapeScene};
 use crate::build::{BuildError, BuildOptions, BuildProgress};
 use crate::geometry::Ray;
@@ -39,6 +40,8 @@ pub struct Scene {
 pub(super) struct Trees {
     pub(super) shapes: ShapeScene<TriangleMesh>,
     pub(super) wide: Option<WideTree>,
+    /// What queries about points need besides.
+    pub(super) for_points: ForPoints,
 }
 
 impl Scene {
@@ -71,7 +74,7 @@ impl Scene {
             (ShapeScene::build_with_progress(mesh, options, progress)?, None)
         };
         Ok(Self {
-            trees: Arc::new(Trees { shapes, wide }),
+            trees: Arc::new(Trees { shapes, wide, for_points: ForPoints::default() }),
             arithmetic: Arithmetic::default(),
             instructions: InstructionSet::best(),
         })
