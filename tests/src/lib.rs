@@ -13,6 +13,7 @@ pub mod oracle;
 pub mod owned_packet;
 pub mod packer;
 pub mod parity;
+pub mod points;
 pub mod rays;
 pub mod shared;
 pub mod subject;

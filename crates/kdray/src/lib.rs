@@ -24,7 +24,7 @@ pub use build::{BuildError, BuildOptions, BuildProgress, CostModel, Preset, Stra
 pub use file::FileError;
 pub use geometry::{Aabb, Interval, Ray, RayError, RayPacket};
 pub use layout::Hint;
-pub use primitives::{Hit, MeshError, Side, TriangleMesh};
+pub use primitives::{ClosestPoint, Closure, Hit, MeshError, Side, TriangleMesh};
 pub use query::{Arithmetic, Instance, InstanceHit, InstancedScene};
 pub use query::{PacketWork, Scene, ShapeScene};
 pub use simd::InstructionSet;

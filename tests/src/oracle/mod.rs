@@ -8,10 +8,12 @@
 
 mod compare;
 mod integers;
+mod point;
 mod segment;
 mod triangle;
 
 pub use compare::{agrees_on_all, agrees_on_closest};
+pub use point::{exact_distance_squared, exactly_contains, is_distance, is_exactly_visible};
 pub use segment::exact_segment_hit;
 pub use triangle::exact_triangle_hit;
 

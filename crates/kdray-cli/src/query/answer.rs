@@ -1,9 +1,11 @@
-//! From a ray to what is asked of it.
+//! From a ray to what is asked of it, and all that can be asked.
 
 use clap::ValueEnum;
-use kdray::{Aabb, Hit, Ray, Scene, TriangleMesh, primitives::HitRule, traverse::Naive};
+use kdray::{
+    Aabb, ClosestPoint, Hit, Ray, Scene, TriangleMesh, primitives::HitRule, traverse::Naive,
+};
 
-/// What is asked of each ray.
+/// What is asked of each ray, or of each point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Mode {
     /// The first hit: t_hit, geometry_ids, primitive_ids, primitive_uvs, primitive_normals
@@ -15,9 +17,30 @@ pub(crate) enum Mode {
     All,
     /// How many surfaces are crossed: intersection_counts
     Count,
+    /// Of points, the nearest one of the mesh: points, distances, geometry_ids, primitive_ids,
+    /// primitive_uvs, primitive_normals
+    ClosestPoint,
+    /// Of points, whether they are inside or on the surface: inside
+    Contains,
+    /// Of points, the distance from the mesh, negative inside: signed_distances
+    SignedDistance,
+    /// Of points, how often the mesh winds around them: winding_numbers
+    WindingNumber,
 }
 
-/// The answer for one ray.
+impl Mode {
+    /// Whether it is asked of points, not of rays.
+    pub(crate) fn is_of_points(self) -> bool {
+        match self {
+            Self::Closest | Self::Any | Self::All | Self::Count => false,
+            Self::ClosestPoint | Self::Contains | Self::SignedDistance | Self::WindingNumber => {
+                true
+            }
+        }
+    }
+}
+
+/// The answer for one ray or point.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Answer {
     /// The first hit, with the unit normal of the triangle.
@@ -28,6 +51,36 @@ pub(crate) enum Answer {
     All(Vec<Hit>),
     /// How many hits there are.
     Count(usize),
+    /// The nearest point, with the unit normal of the triangle.
+    ClosestPoint(Option<(ClosestPoint, [f64; 3])>),
+    /// Whether the point is inside.
+    Contains(bool),
+    /// The distance, negative inside.
+    SignedDistance(Option<f64>),
+    /// How often the mesh winds around the point.
+    WindingNumber(f64),
+}
+
+impl Answer {
+    /// Whether a ray hits, or a point is inside.
+    pub(crate) fn is_hit(&self) -> bool {
+        match self {
+            Self::Closest(hit) => hit.is_some(),
+            Self::Any(is_so) | Self::Contains(is_so) => *is_so,
+            Self::All(hits) => !hits.is_empty(),
+            Self::Count(count) => *count > 0,
+            Self::ClosestPoint(nearest) => {
+                nearest.is_some_and(|(nearest, _)| nearest.distance == 0.0)
+            }
+            Self::SignedDistance(distance) => distance.is_some_and(|distance| distance <= 0.0),
+            Self::WindingNumber(number) => *number >= 0.5,
+        }
+    }
+}
+
+/// The unit normal of a triangle; zero if it has no area.
+pub(super) fn unit_normal(mesh: &TriangleMesh, id: u32) -> [f64; 3] {
+    glam::DVec3::from(mesh.geometric_normal(id)).normalize_or_zero().into()
 }
 
 /// Who answers.
@@ -46,7 +99,8 @@ impl Answerer {
         Self::Naive(mesh, bounds)
     }
 
-    /// Answers each ray, in their order; one that cannot be traced hits nothing.
+    /// Answers each ray, in their order; one that cannot be traced hits nothing. Modes of points have
+    /// no answers here.
     pub(crate) fn answers(&self, mode: Mode, rays: &[Ray]) -> Vec<Answer> {
         match mode {
             Mode::Closest => {
@@ -61,13 +115,15 @@ impl Answerer {
             }
             Mode::All => rays.iter().map(|ray| Answer::All(self.all_hits(ray))).collect(),
             Mode::Count => rays.iter().map(|ray| Answer::Count(self.count(ray))).collect(),
+            Mode::ClosestPoint | Mode::Contains | Mode::SignedDistance | Mode::WindingNumber => {
+                Vec::new()
+            }
         }
     }
 
     fn with_normal(&self, hit: Option<Hit>) -> Option<(Hit, [f64; 3])> {
         let hit = hit?;
-        let normal = self.mesh().geometric_normal(hit.primitive_id);
-        Some((hit, glam::DVec3::from(normal).normalize_or_zero().into()))
+        Some((hit, unit_normal(self.mesh(), hit.primitive_id)))
     }
 
     fn mesh(&self) -> &TriangleMesh {

@@ -1,43 +1,36 @@
-//! What became of the rays, for the user.
+//! What became of the rays or points, for the user.
 
-use super::Answer;
-use kdray::{Ray, RayError};
+use super::{Answer, Row};
 
-/// Counts of what became of the rays.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+/// Counts of what became of the rays or points.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Summary {
-    /// All rays.
-    pub(crate) rays: u64,
-    /// Rays with a hit.
+    /// All of them.
+    pub(crate) rows: u64,
+    /// Rays with a hit, or points inside.
     pub(crate) hitting: u64,
-    /// Rays that could not be traced, and count as misses.
-    pub(crate) untraceable: u64,
+    /// Those that could not be answered.
+    bad: u64,
     /// The first of these, and why.
-    first: Option<(u64, RayError)>,
+    first: Option<(u64, String)>,
 }
 
 impl Summary {
-    /// Counts a ray and its answer.
-    pub(crate) fn add(&mut self, ray: &Ray, answer: &Answer) {
-        if let Err(error) = ray.check() {
-            self.untraceable += 1;
-            self.first.get_or_insert((self.rays, error));
+    /// Counts a ray or point and its answer.
+    pub(crate) fn add(&mut self, row: &impl Row, answer: &Answer) {
+        if let Some(problem) = row.problem() {
+            self.bad += 1;
+            self.first.get_or_insert((self.rows, problem));
         }
-        self.rays += 1;
-        self.hitting += u64::from(match answer {
-            Answer::Closest(hit) => hit.is_some(),
-            Answer::Any(occluded) => *occluded,
-            Answer::All(hits) => !hits.is_empty(),
-            Answer::Count(count) => *count > 0,
-        });
+        self.rows += 1;
+        self.hitting += u64::from(answer.is_hit());
     }
 
-    /// A sentence on rays that could not be traced, if there were any.
-    pub(crate) fn warning(&self) -> Option<String> {
-        let (ray, error) = self.first?;
-        let (count, rays) = (self.untraceable, self.rays);
-        Some(format!(
-            "{count} of {rays} rays cannot be traced and count as misses; ray {ray}: {error}"
-        ))
+    /// A sentence on those that could not be answered, if there were any.
+    pub(crate) fn warning<R: Row>(&self) -> Option<String> {
+        let (place, problem) = self.first.as_ref()?;
+        let Self { bad, rows, .. } = self;
+        let (one, many, if_bad) = (R::ONE, R::MANY, R::IF_BAD);
+        Some(format!("{bad} of {rows} {many} {if_bad}; {one} {place}: {problem}"))
     }
 }

@@ -1,16 +1,19 @@
 //! Forms of the tree that are fast to traverse, derived from the canonical one.
 //!
 //! [`WideTree`] collapses some three levels of the kd-tree into a node of eight children with tight
-//! boxes, and puts copies of the triangles next to them, eight to a block.
+//! boxes, and puts copies of the triangles next to them, eight to a block. [`Clusters`]
+//! are what winding numbers are summed over.
 
 mod arena;
 mod block;
+mod clusters;
 mod collapse;
 mod error;
 mod hint;
 mod home;
 mod homes;
 mod matching;
+mod moments;
 mod node;
 mod parts;
 mod plan;
@@ -22,6 +25,7 @@ mod wide;
 
 pub(crate) use arena::Link;
 pub(crate) use block::TriangleBlock;
+pub use clusters::{Cluster, Clusters};
 pub use error::WideError;
 pub use hint::Hint;
 pub(crate) use home::Home;

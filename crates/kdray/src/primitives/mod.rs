@@ -1,17 +1,24 @@
 //! What a ray can hit, and all that the build and the traversal know of it.
 
 mod ball;
+mod closest_point;
+mod closure;
 mod hit;
 mod hit_arrays;
 mod mesh;
 mod segments;
+mod solid_angle;
 pub(crate) mod triangle;
 
 pub use ball::{BallError, Balls};
+pub use closest_point::{ClosestPoint, closest_on_triangle};
+pub(crate) use closest_point::{DISTANCE_ERROR, FARTHEST};
+pub use closure::Closure;
 pub use hit::{Hit, HitRule, Side};
 pub use hit_arrays::HitArrays;
 pub use mesh::{MeshError, TriangleMesh};
 pub use segments::{SegmentError, Segments};
+pub use solid_angle::solid_angle;
 pub use triangle::intersect_triangle;
 
 use crate::geometry::{Aabb, Ray};

@@ -2,13 +2,21 @@
 
 mod arithmetic;
 mod batch;
+mod closest_point;
+mod contains;
+mod filtered;
 mod instance;
 mod instance_hits;
 mod instanced_scene;
 mod near;
 mod packet;
+mod points;
 mod scene;
 mod shape_scene;
+mod signed_distance;
+mod thickness;
+mod visible;
+mod winding_number;
 
 pub use crate::traverse::wide::packet::PacketWork;
 pub use arithmetic::Arithmetic;

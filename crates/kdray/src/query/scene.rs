@@ -1,5 +1,6 @@
 //! Triangles with their trees.
 
+use super::points::ForPoints;
 use super::{Arithmetic, ShapeScene};
 use crate::build::{BuildError, BuildOptions, BuildProgress};
 use crate::geometry::Ray;
@@ -42,6 +43,8 @@ pub(super) struct Trees {
     pub(super) wide: Option<WideTree>,
     /// The file that they lie in, if any.
     source: Option<Source>,
+    /// What queries about points need besides.
+    pub(super) for_points: ForPoints,
 }
 
 impl Scene {
@@ -73,7 +76,7 @@ impl Scene {
         } else {
             (ShapeScene::build_with_progress(mesh, options, progress)?, None)
         };
-        Ok(Self::of(Trees { shapes, wide, source: None }))
+        Ok(Self::of_parts(shapes, wide, None))
     }
 
     /// Trees over `mesh` as they are, which lie in the bytes of `source` if it is given.
@@ -84,12 +87,17 @@ impl Scene {
         source: Option<SharedBytes>,
     ) -> Self {
         let shapes = ShapeScene::of_tree(mesh, tree);
-        Self::of(Trees { shapes, wide, source: source.map(Source) })
+        Self::of_parts(shapes, wide, source.map(Source))
     }
 
-    fn of(trees: Trees) -> Self {
+    fn of_parts(
+        shapes: ShapeScene<TriangleMesh>,
+        wide: Option<WideTree>,
+        source: Option<Source>,
+    ) -> Self {
+        let for_points = ForPoints::default();
         Self {
-            trees: Arc::new(trees),
+            trees: Arc::new(Trees { shapes, wide, source, for_points }),
             arithmetic: Arithmetic::default(),
             instructions: InstructionSet::best(),
         }

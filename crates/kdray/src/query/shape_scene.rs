@@ -118,6 +118,25 @@ impl<P: Intersect<K>, const K: usize> ShapeScene<P, K> {
         self.all_hits_traced(ray, HitRule::Touching, ())
     }
 
+    /// The crossings of [`all_hits`](Self::all_hits) that come after `last`, one of them.
+    pub fn all_hits_after(&self, ray: &Ray<K>, last: &Hit) -> AllHits<'_, P, K> {
+        AllHits::after(&self.tree, &self.primitives, ray, HitRule::Crossing, last, ())
+    }
+
+    /// What [`all_touched`](Self::all_touched) finds after `last`, one of its hits.
+    pub fn all_touched_after(&self, ray: &Ray<K>, last: &Hit) -> AllHits<'_, P, K> {
+        AllHits::after(&self.tree, &self.primitives, ray, HitRule::Touching, last, ())
+    }
+
+    /// The first hit that `keep` keeps, by rising t, equal t by rising primitive id.
+    pub fn closest_hit_where(
+        &self,
+        ray: &Ray<K>,
+        mut keep: impl FnMut(&Hit) -> bool,
+    ) -> Option<Hit> {
+        self.all_touched(ray).find(|hit| keep(hit))
+    }
+
     /// All hits that count by `rule`, watched by `trace`.
     pub fn all_hits_traced<T: Trace>(
         &self,

@@ -1,7 +1,7 @@
 //! All hits, in order, as they are asked for.
 
 use super::{LeafWalk, Trace};
-use crate::geometry::Ray;
+use crate::geometry::{Interval, Ray};
 use crate::primitives::{Hit, HitRule, Intersect};
 use crate::tree::KdTree;
 use std::iter::FusedIterator;
@@ -9,7 +9,9 @@ use std::iter::FusedIterator;
 /// The hits of a ray by rising t, equal t by rising primitive id, each once.
 ///
 /// Lazy: leaves are visited only as far as the next hit needs. A hit found in a leaf is yielded as
-/// soon as no later leaf can hold an earlier one; till then it is `pending`.
+/// soon as no later leaf can hold an earlier one; till then it is `pending`. So who wants a few stops
+/// asking, or says [`take`](Iterator::take), and pays for no more; [`after`](Self::after) goes on
+/// later.
 #[derive(Debug)]
 #[must_use = "hits are found only as they are asked for"]
 pub struct AllHits<'a, P, const K: usize, T = ()> {
@@ -36,6 +38,21 @@ impl<'a, P: Intersect<K>, const K: usize, T: Trace> AllHits<'a, P, K, T> {
         Self { primitives, ray: *ray, rule, walk, trace, pending: Vec::new(), last: None }
     }
 
+    /// The hits of `ray` that come after `last`, one of them: as if all up to it were taken from
+    /// [`new`](Self::new). Others at the same t are neither lost nor repeated.
+    pub fn after(
+        tree: &'a KdTree<K>,
+        primitives: &'a P,
+        ray: &Ray<K>,
+        rule: HitRule,
+        last: &Hit,
+        trace: T,
+    ) -> Self {
+        let Interval { t_min, t_max } = ray.interval;
+        let rest = ray.with_interval(t_min.max(last.t), t_max);
+        Self { last: Some(*last), ..Self::new(tree, primitives, &rest, rule, trace) }
+    }
+
     /// Adds the hits of the next leaf to the pending ones; false if there is no such leaf.
     fn visit_leaf(&mut self) -> bool {
         let t_max = self.ray.interval.t_max;
@@ -46,7 +63,7 @@ impl<'a, P: Intersect<K>, const K: usize, T: Trace> AllHits<'a, P, K, T> {
             let mut t = None;
             primitives.intersect(id, ray, *rule, &mut |hit| {
                 t = t.or(Some(hit.t));
-                if last.is_none_or(|last| last.precedes(&hit)) {
+                if last.is_none_or(|last| last.order(&hit).is_lt()) {
                     pending.push(hit);
                 }
             });

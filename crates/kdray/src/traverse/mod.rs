@@ -6,19 +6,27 @@
 //! see [`crate::exact`]) keeps it from a leaf whose cell holds a hit.
 
 mod all_hits;
+mod cell_walk;
 mod closest;
 mod leaf_walk;
 mod naive;
+mod nearest;
 mod packet;
 mod trace;
+mod visible;
 pub(crate) mod wide;
+mod winding;
 
 pub use all_hits::AllHits;
+pub use cell_walk::CellWalk;
 pub use closest::{any_hit, closest_hit};
 pub use leaf_walk::{LeafVisit, LeafWalk};
 pub use naive::Naive;
+pub use nearest::closest_point;
 pub use packet::{
     Cull, Frustum, LaneMask, PacketCounters, PacketDecision, PacketKind, PacketLeafStep,
     PacketRecorder, PacketSplitStep, PacketStep, PacketTrace, Packets,
 };
 pub use trace::{Counters, LeafStep, SplitStep, Step, StepRecorder, Trace, TraversalCase};
+pub use visible::is_visible;
+pub use winding::winding_number;

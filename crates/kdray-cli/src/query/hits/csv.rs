@@ -4,7 +4,7 @@ use super::{
     super::{Answer, Mode, Precision},
     MISS_ID,
 };
-use kdray::Hit;
+use kdray::{ClosestPoint, Hit};
 use std::{
     fmt,
     io::{self, Write},
@@ -12,8 +12,10 @@ use std::{
 
 const HIT: &str = "t_hit,geometry_ids,primitive_ids,primitive_uvs_u,primitive_uvs_v";
 const NORMAL: &str = "primitive_normals_x,primitive_normals_y,primitive_normals_z";
+const NEAREST: &str = "points_x,points_y,points_z,distances,geometry_ids,primitive_ids,\
+                       primitive_uvs_u,primitive_uvs_v";
 
-/// A line of names, then a line for each ray, or for mode `all` each hit.
+/// A line of names, then a line for each ray or point, or for mode `all` each hit.
 pub(crate) struct CsvHits {
     target: Box<dyn Write>,
     precision: Precision,
@@ -31,6 +33,10 @@ impl CsvHits {
             Mode::Any => writeln!(target, "occluded")?,
             Mode::All => writeln!(target, "ray_ids,{HIT}")?,
             Mode::Count => writeln!(target, "intersection_counts")?,
+            Mode::ClosestPoint => writeln!(target, "{NEAREST},{NORMAL}")?,
+            Mode::Contains => writeln!(target, "inside")?,
+            Mode::SignedDistance => writeln!(target, "signed_distances")?,
+            Mode::WindingNumber => writeln!(target, "winding_numbers")?,
         }
         Ok(Self { target, precision })
     }
@@ -40,18 +46,45 @@ impl CsvHits {
         match answer {
             Answer::Closest(found) => {
                 self.write_hit(found.map(|(hit, _)| hit))?;
-                let [x, y, z] = found.map_or([0.0; 3], |(_, normal)| normal);
-                let [x, y, z] = [x, y, z].map(|value| self.float(value));
-                writeln!(self.target, ",{x},{y},{z}")
+                self.write_normal(found.map(|(_, normal)| normal))
             }
-            Answer::Any(occluded) => writeln!(self.target, "{occluded}"),
+            Answer::Any(is_so) | Answer::Contains(is_so) => writeln!(self.target, "{is_so}"),
             Answer::All(hits) => hits.iter().try_for_each(|&hit| {
                 write!(self.target, "{ray},")?;
                 self.write_hit(Some(hit))?;
                 writeln!(self.target)
             }),
             Answer::Count(count) => writeln!(self.target, "{count}"),
+            Answer::ClosestPoint(found) => {
+                self.write_nearest(found.map(|(nearest, _)| nearest))?;
+                self.write_normal(found.map(|(_, normal)| normal))
+            }
+            Answer::SignedDistance(distance) => {
+                let distance = self.float(distance.unwrap_or(f64::INFINITY));
+                writeln!(self.target, "{distance}")
+            }
+            Answer::WindingNumber(number) => {
+                let number = self.float(*number);
+                writeln!(self.target, "{number}")
+            }
         }
+    }
+
+    /// The end of a line.
+    fn write_normal(&mut self, normal: Option<[f64; 3]>) -> io::Result<()> {
+        let [x, y, z] = normal.unwrap_or_default().map(|value| self.float(value));
+        writeln!(self.target, ",{x},{y},{z}")
+    }
+
+    fn write_nearest(&mut self, nearest: Option<ClosestPoint>) -> io::Result<()> {
+        let point = nearest.map_or([0.0; 3], |nearest| nearest.point);
+        let [x, y, z] = point.map(|value| self.float(value));
+        let distance = self.float(nearest.map_or(f64::INFINITY, |nearest| nearest.distance));
+        let geometry_id = nearest.map_or(MISS_ID, |_| 0);
+        let primitive_id = nearest.map_or(MISS_ID, |nearest| nearest.primitive_id);
+        let uv = nearest.map_or([0.0; 2], |nearest| [nearest.u, nearest.v]);
+        let [u, v] = uv.map(|value| self.float(value));
+        write!(self.target, "{x},{y},{z},{distance},{geometry_id},{primitive_id},{u},{v}")
     }
 
     fn write_hit(&mut self, hit: Option<Hit>) -> io::Result<()> {

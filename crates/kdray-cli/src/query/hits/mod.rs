@@ -1,4 +1,4 @@
-//! Hits out, to npz or CSV, in arrays that are named as Open3D names them.
+//! Hits, and answers about points, out to npz or CSV, in arrays that are named as Open3D names them.
 
 mod array;
 mod csv;
@@ -66,7 +66,7 @@ impl HitWriter {
         begun.map_err(|error| CliError::output(path, error))
     }
 
-    /// Appends the answer of the ray with this number.
+    /// Appends the answer of the ray or point with this number.
     pub(crate) fn write(&mut self, ray: u64, answer: &Answer) -> Result<(), CliError> {
         match self {
             Self::Npz(npz, output) => {

@@ -6,7 +6,7 @@ use super::{
     array::{Array, Number},
 };
 use crate::output::Output;
-use kdray::Hit;
+use kdray::{ClosestPoint, Hit};
 use std::{
     fs::File,
     io::{self, BufWriter, Write},
@@ -19,11 +19,24 @@ pub(crate) enum NpzHits {
     Any { occluded: Array },
     All { hits: HitArrays, ray_ids: Array, ray_splits: Array, count: i64 },
     Count { intersection_counts: Array },
+    ClosestPoint { nearest: NearestArrays, primitive_normals: Array },
+    Contains { inside: Array },
+    SignedDistance { signed_distances: Array },
+    WindingNumber { winding_numbers: Array },
 }
 
 /// What is said of a hit.
 pub(crate) struct HitArrays {
     t_hit: Array,
+    geometry_ids: Array,
+    primitive_ids: Array,
+    primitive_uvs: Array,
+}
+
+/// What is said of a nearest point.
+pub(crate) struct NearestArrays {
+    points: Array,
+    distances: Array,
     geometry_ids: Array,
     primitive_ids: Array,
     primitive_uvs: Array,
@@ -59,10 +72,29 @@ impl NpzHits {
                 let intersection_counts = array("intersection_counts", Number::I32, 1)?;
                 Self::Count { intersection_counts }
             }
+            Mode::ClosestPoint => Self::ClosestPoint {
+                nearest: NearestArrays {
+                    points: array("points", Number::Float, 3)?,
+                    distances: array("distances", Number::Float, 1)?,
+                    geometry_ids: array("geometry_ids", Number::U32, 1)?,
+                    primitive_ids: array("primitive_ids", Number::U32, 1)?,
+                    primitive_uvs: array("primitive_uvs", Number::Float, 2)?,
+                },
+                primitive_normals: array("primitive_normals", Number::Float, 3)?,
+            },
+            Mode::Contains => Self::Contains { inside: array("inside", Number::Bool, 1)? },
+            Mode::SignedDistance => {
+                let signed_distances = array("signed_distances", Number::Float, 1)?;
+                Self::SignedDistance { signed_distances }
+            }
+            Mode::WindingNumber => {
+                let winding_numbers = array("winding_numbers", Number::Float, 1)?;
+                Self::WindingNumber { winding_numbers }
+            }
         })
     }
 
-    /// Appends the answer of the ray with this number.
+    /// Appends the answer of the ray or point with this number.
     pub(super) fn write(&mut self, ray: u64, answer: &Answer) -> io::Result<()> {
         match (self, answer) {
             (Self::Closest { hits, primitive_normals }, Answer::Closest(found)) => {
@@ -80,6 +112,19 @@ impl NpzHits {
             }
             (Self::Count { intersection_counts }, Answer::Count(count)) => {
                 intersection_counts.push(&(*count as i32).to_le_bytes())
+            }
+            (Self::ClosestPoint { nearest, primitive_normals }, Answer::ClosestPoint(found)) => {
+                nearest.push(found.map(|(nearest, _)| nearest))?;
+                primitive_normals.push_floats(&found.map_or([0.0; 3], |(_, normal)| normal))
+            }
+            (Self::Contains { inside }, Answer::Contains(is_so)) => {
+                inside.push(&[u8::from(*is_so)])
+            }
+            (Self::SignedDistance { signed_distances }, Answer::SignedDistance(distance)) => {
+                signed_distances.push_floats(&[distance.unwrap_or(f64::INFINITY)])
+            }
+            (Self::WindingNumber { winding_numbers }, Answer::WindingNumber(number)) => {
+                winding_numbers.push_floats(&[*number])
             }
             _ => Err(io::Error::other("the answer is not of the mode that was asked for")),
         }
@@ -108,6 +153,12 @@ impl NpzHits {
                 hits.into_iter().chain([ray_ids, ray_splits]).collect()
             }
             Self::Count { intersection_counts } => vec![intersection_counts],
+            Self::ClosestPoint { nearest, primitive_normals } => {
+                nearest.into_iter().chain([primitive_normals]).collect()
+            }
+            Self::Contains { inside } => vec![inside],
+            Self::SignedDistance { signed_distances } => vec![signed_distances],
+            Self::WindingNumber { winding_numbers } => vec![winding_numbers],
         }
     }
 }
@@ -129,5 +180,28 @@ impl IntoIterator for HitArrays {
 
     fn into_iter(self) -> Self::IntoIter {
         [self.t_hit, self.geometry_ids, self.primitive_ids, self.primitive_uvs].into_iter()
+    }
+}
+
+impl NearestArrays {
+    fn push(&mut self, nearest: Option<ClosestPoint>) -> io::Result<()> {
+        let geometry_id = nearest.map_or(MISS_ID, |_| 0);
+        let primitive_id = nearest.map_or(MISS_ID, |nearest| nearest.primitive_id);
+        let distance = nearest.map_or(f64::INFINITY, |nearest| nearest.distance);
+        self.points.push_floats(&nearest.map_or([0.0; 3], |nearest| nearest.point))?;
+        self.distances.push_floats(&[distance])?;
+        self.geometry_ids.push(&geometry_id.to_le_bytes())?;
+        self.primitive_ids.push(&primitive_id.to_le_bytes())?;
+        self.primitive_uvs.push_floats(&nearest.map_or([0.0; 2], |nearest| [nearest.u, nearest.v]))
+    }
+}
+
+impl IntoIterator for NearestArrays {
+    type Item = Array;
+    type IntoIter = std::array::IntoIter<Array, 5>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        let Self { points, distances, geometry_ids, primitive_ids, primitive_uvs } = self;
+        [points, distances, geometry_ids, primitive_ids, primitive_uvs].into_iter()
     }
 }

@@ -1,19 +1,18 @@
-//! Rays from an npy file.
+//! Rows from an npy file.
 
 use super::{
-    super::{Precision, RaysError},
-    Source,
+    super::{Precision, RowsError},
+    Row, Source,
     npy_header::NpyHeader,
-    ray_of,
 };
-use kdray::Ray;
 use std::{
     fs::File,
     io::{self, BufReader, Read, Seek, SeekFrom},
+    marker::PhantomData,
 };
 
-/// Rays from the rows of an N x 6 or N x 8 array.
-pub(crate) struct NpyRays {
+/// The rows of an array.
+pub(crate) struct NpyRows<R> {
     header: NpyHeader,
     source: Source,
     /// Rows read so far.
@@ -21,22 +20,26 @@ pub(crate) struct NpyRays {
     /// The numbers of the rows being read.
     values: Vec<f64>,
     bytes: Vec<u8>,
+    row: PhantomData<R>,
 }
 
-impl NpyRays {
-    pub(super) fn new(mut source: Source) -> Result<Self, RaysError> {
-        let header = NpyHeader::read(&mut source).map_err(|error| match error {
-            RaysError::Io(error) if error.kind() == io::ErrorKind::UnexpectedEof => {
-                RaysError::Header("the file ends within it".to_owned())
+impl<R: Row> NpyRows<R> {
+    pub(super) fn new(mut source: Source) -> Result<Self, RowsError> {
+        let header = NpyHeader::read::<R>(&mut source).map_err(|error| match error {
+            RowsError::Io(error) if error.kind() == io::ErrorKind::UnexpectedEof => {
+                RowsError::Header("the file ends within it".to_owned())
             }
             error => error,
         })?;
         match &source {
-            Source::Stream(_) if header.fortran_order => return Err(RaysError::FortranStream),
+            Source::Stream(_) if header.fortran_order => {
+                return Err(RowsError::FortranStream(R::MANY));
+            }
             Source::Stream(_) => {}
             Source::File(file) => check_length(file.get_ref(), &header)?,
         }
-        Ok(Self { header, source, done: 0, values: Vec::new(), bytes: Vec::new() })
+        let (values, bytes) = (Vec::new(), Vec::new());
+        Ok(Self { header, source, done: 0, values, bytes, row: PhantomData })
     }
 
     pub(super) fn precision(&self) -> Precision {
@@ -47,7 +50,7 @@ impl NpyRays {
         self.header.rows
     }
 
-    pub(super) fn read(&mut self, limit: usize, rays: &mut Vec<Ray>) -> Result<(), RaysError> {
+    pub(super) fn read(&mut self, limit: usize, into: &mut Vec<R>) -> Result<(), RowsError> {
         let NpyHeader { rows, columns, fortran_order, .. } = self.header;
         let count = (rows - self.done).min(limit as u64) as usize;
         self.values.clear();
@@ -55,21 +58,21 @@ impl NpyRays {
         whole.map_err(|error| match error.kind() {
             io::ErrorKind::UnexpectedEof => {
                 let row = self.done + (self.values.len() / columns) as u64;
-                RaysError::Truncated { row, rows }
+                RowsError::Truncated { row, rows }
             }
-            _ => RaysError::Io(error),
+            _ => RowsError::Io(error),
         })?;
         self.done += count as u64;
         if fortran_order {
-            rays.extend((0..count).map(|row| {
+            into.extend((0..count).map(|row| {
                 let mut values = [0.0; 8];
                 for (column, value) in values[..columns].iter_mut().enumerate() {
                     *value = self.values[column * count + row];
                 }
-                ray_of(&values[..columns])
+                R::of(&values[..columns])
             }));
         } else {
-            rays.extend(self.values.chunks_exact(columns).map(ray_of));
+            into.extend(self.values.chunks_exact(columns).map(R::of));
         }
         Ok(())
     }
@@ -106,11 +109,11 @@ impl NpyRays {
 }
 
 /// A file that is too short is refused before the work.
-fn check_length(file: &File, header: &NpyHeader) -> Result<(), RaysError> {
+fn check_length(file: &File, header: &NpyHeader) -> Result<(), RowsError> {
     let row_bytes = (header.columns * header.precision.bytes()) as u64;
     let present = file.metadata()?.len().saturating_sub(header.length);
     if present / row_bytes < header.rows {
-        return Err(RaysError::Truncated { row: present / row_bytes, rows: header.rows });
+        return Err(RowsError::Truncated { row: present / row_bytes, rows: header.rows });
     }
     Ok(())
 }

@@ -1,15 +1,17 @@
-//! Rays from lines of numbers with commas.
+//! Rows from lines of numbers with commas.
 
-use super::{super::RaysError, ray_of};
-use kdray::Ray;
-use std::io::{BufRead, Read};
+use super::{super::RowsError, Row};
+use std::{
+    io::{BufRead, Read},
+    marker::PhantomData,
+};
 
 /// No line of eight numbers needs more bytes; one without end would take memory without bound.
 const MAX_LINE: usize = 1 << 16;
 
-/// Rays from lines of 6 or 8 numbers. Empty lines, and those that begin with `#`, are passed over,
+/// Rows from lines of numbers. Empty lines, and those that begin with `#`, are passed over,
 /// and so is a first line of as many names, with the mark of UTF-8 before it or without.
-pub(crate) struct CsvRays {
+pub(crate) struct CsvRows<R> {
     source: Box<dyn BufRead>,
     /// The line that was read last, from 1.
     line: u64,
@@ -17,38 +19,43 @@ pub(crate) struct CsvRays {
     /// Numbers in a line, once that is known.
     columns: Option<usize>,
     may_be_heading: bool,
+    row: PhantomData<R>,
 }
 
-impl CsvRays {
+impl<R: Row> CsvRows<R> {
     pub(super) fn new(source: Box<dyn BufRead>) -> Self {
-        Self { source, line: 0, text: Vec::new(), columns: None, may_be_heading: true }
+        let text = Vec::new();
+        Self { source, line: 0, text, columns: None, may_be_heading: true, row: PhantomData }
     }
 
-    pub(super) fn read(&mut self, limit: usize, rays: &mut Vec<Ray>) -> Result<(), RaysError> {
-        while rays.len() < limit && self.next_line()? {
+    pub(super) fn read(&mut self, limit: usize, rows: &mut Vec<R>) -> Result<(), RowsError> {
+        while rows.len() < limit && self.next_line()? {
             let line = self.line;
             let text = std::str::from_utf8(&self.text).map_err(|_| bad(line, "is not text"))?;
             let text = if line == 1 { text.trim_start_matches('\u{feff}') } else { text }.trim();
             if text.is_empty() || text.starts_with('#') {
                 continue;
             }
-            let found = check_columns(line, text, &mut self.columns)?;
+            let found = check_columns::<R>(line, text, &mut self.columns)?;
             if !(std::mem::take(&mut self.may_be_heading) && is_heading(text)) {
-                rays.push(ray(line, text, found)?);
+                rows.push(row(line, text, found)?);
             }
         }
         Ok(())
     }
 
     /// Reads a line; false at the end.
-    fn next_line(&mut self) -> Result<bool, RaysError> {
+    fn next_line(&mut self) -> Result<bool, RowsError> {
         self.text.clear();
         self.line += 1;
         let mut source = self.source.by_ref().take(MAX_LINE as u64);
         match source.read_until(b'\n', &mut self.text) {
-            Ok(MAX_LINE) => Err(bad(self.line, format!("longer than {MAX_LINE} bytes; no ray is"))),
+            Ok(MAX_LINE) => {
+                let what = R::ONE;
+                Err(bad(self.line, format!("longer than {MAX_LINE} bytes; no {what} is")))
+            }
             Ok(length) => Ok(length > 0),
-            Err(error) => Err(RaysError::Io(error)),
+            Err(error) => Err(RowsError::Io(error)),
         }
     }
 }
@@ -58,12 +65,17 @@ fn is_heading(text: &str) -> bool {
 }
 
 /// How many fields the line has, which must be as many as the lines before have.
-fn check_columns(line: u64, text: &str, columns: &mut Option<usize>) -> Result<usize, RaysError> {
+fn check_columns<R: Row>(
+    line: u64,
+    text: &str,
+    columns: &mut Option<usize>,
+) -> Result<usize, RowsError> {
     let found = text.split(',').count();
     let expected = *columns.get_or_insert(found);
-    if !matches!(expected, 6 | 8) {
-        let wanted = "give 6 (origin, direction) or 8 (and t_min, t_max), with commas between";
-        return Err(bad(line, format!("has {found} numbers; {wanted}")));
+    if !R::WIDTHS.contains(&expected) {
+        let wanted = R::NUMBERS;
+        let reason = format!("has {found} numbers; give {wanted}, with commas between");
+        return Err(bad(line, reason));
     }
     if found != expected {
         let reason = format!("has {found} numbers, but the lines before have {expected}");
@@ -72,8 +84,8 @@ fn check_columns(line: u64, text: &str, columns: &mut Option<usize>) -> Result<u
     Ok(found)
 }
 
-/// The ray of a line of so many numbers.
-fn ray(line: u64, text: &str, found: usize) -> Result<Ray, RaysError> {
+/// The row of a line of so many numbers.
+fn row<R: Row>(line: u64, text: &str, found: usize) -> Result<R, RowsError> {
     let mut row = [0.0; 8];
     for (value, text) in row.iter_mut().zip(text.split(',').map(str::trim)) {
         *value = text.parse().map_err(|_| {
@@ -81,21 +93,22 @@ fn ray(line: u64, text: &str, found: usize) -> Result<Ray, RaysError> {
             bad(line, format!("`{brief}` is not a number"))
         })?;
     }
-    Ok(ray_of(&row[..found]))
+    Ok(R::of(&row[..found]))
 }
 
-fn bad(line: u64, reason: impl Into<String>) -> RaysError {
-    RaysError::Line { line, reason: reason.into() }
+fn bad(line: u64, reason: impl Into<String>) -> RowsError {
+    RowsError::Line { line, reason: reason.into() }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use kdray::Ray;
     use std::io;
 
     fn rays_of(text: &'static str) -> Result<Vec<Ray>, String> {
         let mut rays = Vec::new();
-        let mut csv = CsvRays::new(Box::new(text.as_bytes()));
+        let mut csv = CsvRows::new(Box::new(text.as_bytes()));
         csv.read(9, &mut rays).map(|()| rays).map_err(|error| error.to_string())
     }
 
@@ -121,7 +134,7 @@ mod tests {
     #[test]
     fn a_line_without_end_is_refused() {
         let endless = Box::new(io::BufReader::new(io::repeat(b'1')));
-        let error = CsvRays::new(endless).read(1, &mut Vec::new()).unwrap_err();
+        let error = CsvRows::<Ray>::new(endless).read(1, &mut Vec::new()).unwrap_err();
         assert_eq!(error.to_string(), "line 1: longer than 65536 bytes; no ray is");
     }
 }

@@ -3,7 +3,10 @@
 //! The format is NEP 1's: six magic bytes, two of version, the header's length (two bytes in
 //! version 1, four since), and a Python dictionary with three keys in any order.
 
-use super::super::{Precision, RaysError};
+use super::{
+    super::{Precision, RowsError},
+    Row,
+};
 use std::io::Read;
 
 /// How every npy file begins.
@@ -12,14 +15,14 @@ pub(super) const MAGIC: [u8; 6] = *b"\x93NUMPY";
 /// Headers of plain arrays have 118 bytes; longer ones are of structured arrays.
 const MAX_LENGTH: u32 = 1 << 16;
 
-/// What an npy file of rays holds.
+/// What an npy file of rows holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct NpyHeader {
     pub(super) precision: Precision,
     pub(super) big_endian: bool,
     pub(super) fortran_order: bool,
     pub(super) rows: u64,
-    /// 6 or 8.
+    /// As many as a row has numbers.
     pub(super) columns: usize,
     /// Bytes before the first number.
     pub(super) length: u64,
@@ -32,7 +35,7 @@ pub(super) fn is_magic(start: &[u8]) -> bool {
 
 impl NpyHeader {
     /// Reads the header and nothing behind it.
-    pub(super) fn read(source: &mut impl Read) -> Result<Self, RaysError> {
+    pub(super) fn read<R: Row>(source: &mut impl Read) -> Result<Self, RowsError> {
         let mut prefix = [0; 8];
         source.read_exact(&mut prefix)?;
         let (length, start) = match prefix[6] {
@@ -46,33 +49,33 @@ impl NpyHeader {
         let mut text = vec![0; length as usize];
         source.read_exact(&mut text)?;
         let text = String::from_utf8(text).map_err(|_| bad("is not text"))?;
-        Self::parse(&text, start + u64::from(length))
+        Self::parse::<R>(&text, start + u64::from(length))
     }
 
-    fn parse(text: &str, length: u64) -> Result<Self, RaysError> {
-        let (big_endian, precision) = dtype(value(text, "descr")?)?;
+    fn parse<R: Row>(text: &str, length: u64) -> Result<Self, RowsError> {
+        let (big_endian, precision) = dtype::<R>(value(text, "descr")?)?;
         let fortran_order = match value(text, "fortran_order")? {
             rest if rest.starts_with("True") => true,
             rest if rest.starts_with("False") => false,
             _ => return Err(bad("fortran_order is neither True nor False")),
         };
-        let (rows, columns) = shape(value(text, "shape")?)?;
+        let (rows, columns) = shape::<R>(value(text, "shape")?)?;
         Ok(Self { precision, big_endian, fortran_order, rows, columns, length })
     }
 }
 
-fn array<const N: usize>(source: &mut impl Read) -> Result<[u8; N], RaysError> {
+fn array<const N: usize>(source: &mut impl Read) -> Result<[u8; N], RowsError> {
     let mut bytes = [0; N];
     source.read_exact(&mut bytes)?;
     Ok(bytes)
 }
 
-fn bad(reason: impl Into<String>) -> RaysError {
-    RaysError::Header(reason.into())
+fn bad(reason: impl Into<String>) -> RowsError {
+    RowsError::Header(reason.into())
 }
 
 /// What stands behind `'key':`.
-fn value<'a>(text: &'a str, key: &str) -> Result<&'a str, RaysError> {
+fn value<'a>(text: &'a str, key: &str) -> Result<&'a str, RowsError> {
     let quoted = [format!("'{key}'"), format!("\"{key}\"")];
     let found = quoted.iter().find_map(|quoted| text.split_once(quoted.as_str()));
     let rest = found.and_then(|(_, rest)| rest.trim_start().strip_prefix(':'));
@@ -80,28 +83,38 @@ fn value<'a>(text: &'a str, key: &str) -> Result<&'a str, RaysError> {
 }
 
 /// The byte order and precision that a text such as `'<f4', …` begins with.
-fn dtype(text: &str) -> Result<(bool, Precision), RaysError> {
+fn dtype<R: Row>(text: &str) -> Result<(bool, Precision), RowsError> {
     let name = text.strip_prefix(['\'', '"']).and_then(|rest| rest.split(['\'', '"']).next());
     match name {
         Some("<f4") => Ok((false, Precision::F32)),
         Some(">f4") => Ok((true, Precision::F32)),
         Some("<f8") => Ok((false, Precision::F64)),
         Some(">f8") => Ok((true, Precision::F64)),
-        Some(other) => Err(RaysError::DType(format!("'{other}'"))),
-        None => Err(RaysError::DType("of several fields".to_owned())),
+        Some(other) => Err(bad_dtype::<R>(format!("'{other}'"))),
+        None => Err(bad_dtype::<R>("of several fields".to_owned())),
     }
 }
 
+fn bad_dtype<R: Row>(dtype: String) -> RowsError {
+    RowsError::DType { dtype, what: R::MANY }
+}
+
 /// The rows and columns that a text such as `(5, 6), …` begins with.
-fn shape(text: &str) -> Result<(u64, usize), RaysError> {
+fn shape<R: Row>(text: &str) -> Result<(u64, usize), RowsError> {
     let inside = text.strip_prefix('(').and_then(|rest| rest.split_once(')'));
     let (inside, _) = inside.ok_or_else(|| bad("shape is not a tuple"))?;
-    let refused = || RaysError::Shape(format!("({})", inside.trim()));
+    let refused = || {
+        let shape = format!("({})", inside.trim());
+        RowsError::Shape { shape, what: R::MANY, wanted: R::SHAPES }
+    };
     let sizes = inside.split(',').map(str::trim).filter(|size| !size.is_empty());
     let sizes: Vec<u64> = sizes.map(str::parse).collect::<Result<_, _>>().map_err(|_| refused())?;
     match sizes[..] {
         // So that no count of bytes overflows.
-        [rows, columns @ (6 | 8)] if rows < 1 << 56 => Ok((rows, columns as usize)),
+        [rows, columns] if rows < 1 << 56 => {
+            let width = R::WIDTHS.iter().find(|&&width| width as u64 == columns);
+            width.map(|&width| (rows, width)).ok_or_else(refused)
+        }
         _ => Err(refused()),
     }
 }
@@ -109,11 +122,12 @@ fn shape(text: &str) -> Result<(u64, usize), RaysError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use kdray::Ray;
 
     #[test]
     fn keys_may_come_in_any_order() {
         let text = "{'shape': (5, 8), 'descr': '>f8', 'fortran_order': True, }  \n";
-        let header = NpyHeader::parse(text, 128).unwrap();
+        let header = NpyHeader::parse::<Ray>(text, 128).unwrap();
         let expected = NpyHeader {
             precision: Precision::F64,
             big_endian: true,
@@ -129,7 +143,7 @@ mod tests {
     fn what_is_no_list_of_rays_is_refused_by_name() {
         let header = |descr: &str, shape: &str| {
             let text = format!("{{'descr': {descr}, 'fortran_order': False, 'shape': {shape}}}");
-            NpyHeader::parse(&text, 0).unwrap_err().to_string()
+            NpyHeader::parse::<Ray>(&text, 0).unwrap_err().to_string()
         };
         assert!(header("'<i4'", "(5, 6)").contains("dtype '<i4'"));
         assert!(header("[('x', '<f4')]", "(5, 6)").contains("several fields"));
@@ -137,9 +151,9 @@ mod tests {
             assert!(header("'<f4'", shape).contains(&format!("shape {shape}")), "{shape}");
         }
         assert!(header("'<f4'", "5").contains("tuple"));
-        assert!(NpyHeader::parse("{}", 0).unwrap_err().to_string().contains("'descr'"));
+        assert!(NpyHeader::parse::<Ray>("{}", 0).unwrap_err().to_string().contains("'descr'"));
         let long = [&MAGIC[..], &[2, 0, 255, 255, 255, 255]].concat();
-        let error = NpyHeader::read(&mut &long[..]).unwrap_err();
+        let error = NpyHeader::read::<Ray>(&mut &long[..]).unwrap_err();
         assert!(error.to_string().contains("4294967295 bytes"));
     }
 }

@@ -1,0 +1,125 @@
+//! Triangles in clusters, each with what it looks like from afar (Barill et al. 2018).
+
+use super::moments::Moments;
+use crate::geometry::Aabb;
+use crate::primitives::{Primitives, TriangleMesh};
+use glam::DVec3;
+
+/// Triangles in a cluster that is not cut.
+const LEAF: usize = 8;
+
+/// The triangles of a mesh in nested clusters, for sums over all of them that need not look at
+/// each.
+#[derive(Clone, Debug, Default)]
+pub struct Clusters {
+    clusters: Vec<Cluster>,
+    ids: Vec<u32>,
+}
+
+/// A part of a mesh, and what it looks like from afar.
+#[derive(Clone, Debug)]
+pub struct Cluster {
+    /// The middle of its surface.
+    pub(crate) center: DVec3,
+    /// No corner is farther from there.
+    pub(crate) radius: f64,
+    /// Those of its triangles around the middle.
+    pub(crate) moments: Moments,
+    /// Where its triangles begin and end in the list of ids.
+    first: u32,
+    last: u32,
+    /// The first cluster behind those within this one; the next one if it is not cut.
+    pub(crate) next: u32,
+}
+
+/// What clusters are made of.
+struct Piece {
+    id: u32,
+    middle: DVec3,
+    normal: DVec3,
+}
+
+impl Clusters {
+    /// Puts the triangles of a mesh in clusters; those without area, which cover nothing, are left
+    /// out. O(N log² N); takes 56 bytes a triangle more while it works.
+    pub fn of(mesh: &TriangleMesh) -> Self {
+        let pieces = (0..mesh.count() as u32).map(|id| Piece::of(mesh, id));
+        let mut pieces: Vec<Piece> = pieces.filter(|p| p.normal != DVec3::ZERO).collect();
+        let mut clusters = Vec::with_capacity(pieces.len() / 2);
+        if !pieces.is_empty() {
+            let last = pieces.len();
+            push_cluster(mesh, &mut pieces, (0, last), &mut clusters);
+        }
+        clusters.shrink_to_fit();
+        Self { clusters, ids: pieces.iter().map(|piece| piece.id).collect() }
+    }
+
+    /// The clusters in depth-first order: those within one stand behind it.
+    pub(crate) fn clusters(&self) -> &[Cluster] {
+        &self.clusters
+    }
+
+    /// The triangles of a cluster.
+    pub(crate) fn triangles(&self, cluster: &Cluster) -> &[u32] {
+        &self.ids[cluster.first as usize..cluster.last as usize]
+    }
+}
+
+impl Cluster {
+    /// Whether there are smaller clusters within.
+    pub(crate) fn is_cut(&self) -> bool {
+        (self.last - self.first) as usize > LEAF
+    }
+}
+
+impl Piece {
+    fn of(mesh: &TriangleMesh, id: u32) -> Self {
+        let [a, b, c] = corners(mesh, id);
+        Self { id, middle: (a + b + c) / 3.0, normal: 0.5 * (b - a).cross(c - a) }
+    }
+}
+
+fn corners(mesh: &TriangleMesh, id: u32) -> [DVec3; 3] {
+    mesh.corners(id).map(|p| DVec3::from(p.map(f64::from)))
+}
+
+/// Appends the cluster of `pieces`, which stand from `first` to `last` in the list of all, and those
+/// within it: halves by the number of triangles, across the longest side of the box of their middles.
+fn push_cluster(
+    mesh: &TriangleMesh,
+    pieces: &mut [Piece],
+    (first, last): (usize, usize),
+    clusters: &mut Vec<Cluster>,
+) {
+    let place = clusters.len();
+    clusters.push(cluster(mesh, pieces, (first, last)));
+    if clusters[place].is_cut() {
+        let axis = longest_axis(pieces);
+        let half = pieces.len() / 2;
+        // Ids tell pieces at the same place apart, so that the order is the same on every run.
+        pieces.select_nth_unstable_by(half, |p, q| {
+            p.middle[axis].total_cmp(&q.middle[axis]).then(p.id.cmp(&q.id))
+        });
+        let (low, high) = pieces.split_at_mut(half);
+        push_cluster(mesh, low, (first, first + half), clusters);
+        push_cluster(mesh, high, (first + half, last), clusters);
+    }
+    clusters[place].next = clusters.len() as u32;
+}
+
+fn cluster(mesh: &TriangleMesh, pieces: &[Piece], (first, last): (usize, usize)) -> Cluster {
+    let area: f64 = pieces.iter().map(|piece| piece.normal.length()).sum();
+    let weighted: DVec3 = pieces.iter().map(|piece| piece.normal.length() * piece.middle).sum();
+    let center = weighted / area;
+    let (mut moments, mut radius) = (Moments::default(), 0.0_f64);
+    for piece in pieces {
+        let offsets = corners(mesh, piece.id).map(|p| p - center);
+        moments.add(piece.normal, offsets);
+        radius = offsets.iter().fold(radius, |most, offset| most.max(offset.length()));
+    }
+    Cluster { center, radius, moments, first: first as u32, last: last as u32, next: 0 }
+}
+
+fn longest_axis(pieces: &[Piece]) -> usize {
+    Aabb::of_points(pieces.iter().map(|piece| piece.middle.as_vec3().to_array())).longest_axis()
+}

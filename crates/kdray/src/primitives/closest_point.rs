@@ -1,0 +1,208 @@
+//! The point of a triangle that is nearest to a given one.
+
+use crate::exact::{is_on_triangle, not_vanished};
+use glam::DVec3;
+
+/// The point of a surface that is nearest to a given point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ClosestPoint {
+    /// The nearest point, rounded; where the distance is zero, the given point.
+    pub point: [f64; 3],
+    /// How far it is from the given point. Zero exactly where that lies on the triangle; else it
+    /// errs by 2^-46 of the distance from there to the triangle's farthest corner at most, usually
+    /// by 2^-52.
+    pub distance: f64,
+    /// The index of the triangle.
+    pub primitive_id: u32,
+    /// Barycentric weight of the triangle's second vertex b: the point is (1−u−v)·a + u·b + v·c.
+    pub u: f64,
+    /// Barycentric weight of the triangle's third vertex c.
+    pub v: f64,
+}
+
+impl ClosestPoint {
+    /// The order of candidates: by distance, and for equal distances by primitive id.
+    #[inline]
+    pub fn precedes(&self, other: &Self) -> bool {
+        (self.distance, self.primitive_id) < (other.distance, other.primitive_id)
+    }
+}
+
+/// A bound for the error of a distance, in units of the distance to the farthest corner M.
+///
+/// The distance is the length of s − u·e1 − v·e2, s from a corner to the point, whatever u and v
+/// are, so it is too small by rounding alone: s, e1 and e2 once each, two products and two
+/// differences, on |s| ≤ M and |e| ≤ 2·M, in each of three components: at most 35 roundings of M,
+/// and 3 more of the length. It is too large by rounding, and by what u and v are off.
+pub(crate) const DISTANCE_ERROR: f64 = 64.0 * f64::EPSILON;
+
+/// Farther from zero than this, squares overflow. What f32 holds is a point from there: all its
+/// distances are the same f64.
+pub(crate) const FARTHEST: f64 = 1e150;
+
+/// The point of a triangle that is nearest to `point`, whose coordinates are finite.
+///
+/// The triangle is a closed set; one without area is the segment, or the point, that its corners
+/// span. Of triangles that share a vertex or an edge, all report the same distance to it, to the
+/// last bit. Where `point` is more than 1e150 from zero, the nearest point is the first corner, and
+/// the distance at most the largest f64.
+pub fn closest_on_triangle(point: [f64; 3], corners: [[f64; 3]; 3], id: u32) -> ClosestPoint {
+    let [a, b, c] = corners.map(DVec3::from);
+    let p = DVec3::from(point);
+    if p.abs().max_element() > FARTHEST {
+        let distance = scaled_length(p);
+        return ClosestPoint { point: corners[0], distance, primitive_id: id, u: 0.0, v: 0.0 };
+    }
+    let nearest = in_face(p, [a, b, c]).unwrap_or_else(|| on_border(p, [a, b, c]));
+    let distance = nearest.way.length();
+    let size = (p - a).length_squared().max((p - b).length_squared()).max((p - c).length_squared());
+    if distance > DISTANCE_ERROR * size.sqrt() {
+        let place = a + (nearest.u * (b - a) + nearest.v * (c - a));
+        return nearest.reported(place, distance, id);
+    }
+    let distance = if is_on_triangle(point, corners) { 0.0 } else { not_vanished(distance) };
+    nearest.reported(p, distance, id)
+}
+
+/// A nearest point by its weights, and the way from it to the given one.
+#[derive(Clone, Copy)]
+struct Nearest {
+    u: f64,
+    v: f64,
+    way: DVec3,
+}
+
+impl Nearest {
+    fn reported(self, place: DVec3, distance: f64, primitive_id: u32) -> ClosestPoint {
+        ClosestPoint { point: place.into(), distance, primitive_id, u: self.u, v: self.v }
+    }
+}
+
+/// The foot of the perpendicular from `p`, if it lies in the triangle.
+///
+/// With n = e1 x e2, s = u·e1 + v·e2 + w·n is solved for u and v. In a thin triangle n is off by a
+/// part of about 2^-53 over the sine of the angle at a, and so are u and v; the solution for what is
+/// left of s corrects them by as many digits each time. A correction below 2^-26 of s leaves 2^-52.
+fn in_face(p: DVec3, [a, b, c]: [DVec3; 3]) -> Option<Nearest> {
+    const ROUNDS: usize = 8;
+    let (e1, e2, s) = (b - a, c - a, p - a);
+    let n = e1.cross(e2);
+    let (for_u, for_v, scale) = (e2.cross(n), n.cross(e1), 1.0 / n.length_squared());
+    if !scale.is_finite() {
+        return None;
+    }
+    let (mut u, mut v, mut way) = (0.0, 0.0, s);
+    let enough = f64::EPSILON * s.length_squared();
+    for _ in 0..ROUNDS {
+        let (du, dv) = (way.dot(for_u) * scale, way.dot(for_v) * scale);
+        (u, v) = (u + du, v + dv);
+        way = s - (u * e1 + v * e2);
+        if (du * e1 + dv * e2).length_squared() <= enough {
+            break;
+        }
+    }
+    (u >= 0.0 && v >= 0.0 && u + v <= 1.0).then_some(Nearest { u, v, way })
+}
+
+/// The nearest point of the three edges.
+fn on_border(p: DVec3, [a, b, c]: [DVec3; 3]) -> Nearest {
+    let edge = |from, to| on_edge(p, from, to);
+    let ((on_ab, ab), (on_bc, bc), (on_ca, ca)) = (edge(a, b), edge(b, c), edge(c, a));
+    let mut nearest = Nearest { u: on_ab, v: 0.0, way: ab };
+    for other in
+        [Nearest { u: 1.0 - on_bc, v: on_bc, way: bc }, Nearest { u: 0.0, v: 1.0 - on_ca, way: ca }]
+    {
+        if other.way.length_squared() < nearest.way.length_squared() {
+            nearest = other;
+        }
+    }
+    nearest
+}
+
+/// How far along the edge the nearest point lies, from 0 at `a` to 1 at `b`, and the way from it to
+/// `p`. Both triangles at an edge compute it from the same end, and so alike.
+fn on_edge(p: DVec3, a: DVec3, b: DVec3) -> (f64, DVec3) {
+    if a.to_array() > b.to_array() {
+        let (share, way) = on_edge(p, b, a);
+        return (1.0 - share, way);
+    }
+    let (edge, from_a, from_b) = (b - a, p - a, p - b);
+    let along = from_a.dot(edge);
+    if along <= 0.0 {
+        (0.0, from_a)
+    } else if from_b.dot(edge) >= 0.0 {
+        (1.0, from_b)
+    } else {
+        let share = (along / edge.length_squared()).min(1.0);
+        (share, from_a - share * edge)
+    }
+}
+
+/// The length of a vector that is too long to be squared, at most the largest f64.
+fn scaled_length(v: DVec3) -> f64 {
+    let largest = v.abs().max_element();
+    ((v / largest).length() * largest).min(f64::MAX)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CORNERS: [[f64; 3]; 3] = [[0.0, 0.0, 5.0], [4.0, 0.0, 5.0], [0.0, 4.0, 5.0]];
+
+    fn nearest(point: [f64; 3]) -> ClosestPoint {
+        closest_on_triangle(point, CORNERS, 3)
+    }
+
+    #[test]
+    fn each_region_has_its_nearest_point() {
+        for (point, place, u, v) in [
+            ([1.0, 2.0, 8.0], [1.0, 2.0, 5.0], 0.25, 0.5),
+            ([1.0, 2.0, 2.0], [1.0, 2.0, 5.0], 0.25, 0.5),
+            ([-3.0, -4.0, 5.0], [0.0, 0.0, 5.0], 0.0, 0.0),
+            ([9.0, 0.0, 5.0], [4.0, 0.0, 5.0], 1.0, 0.0),
+            ([0.0, 9.0, 6.0], [0.0, 4.0, 5.0], 0.0, 1.0),
+            ([1.0, -7.0, 5.0], [1.0, 0.0, 5.0], 0.25, 0.0),
+            ([-7.0, 3.0, 5.0], [0.0, 3.0, 5.0], 0.0, 0.75),
+            ([5.0, 5.0, 5.0], [2.0, 2.0, 5.0], 0.5, 0.5),
+        ] {
+            let found = nearest(point);
+            let length = DVec3::from(point).distance(place.into());
+            assert_eq!((found.point, found.u, found.v), (place, u, v), "{point:?}");
+            assert_eq!((found.distance, found.primitive_id), (length, 3), "{point:?}");
+        }
+    }
+
+    #[test]
+    fn the_distance_is_zero_exactly_on_the_triangle() {
+        for point in [[1.0, 1.0, 5.0], [2.0, 2.0, 5.0], [4.0, 0.0, 5.0], [1.0, 3.0, 5.0]] {
+            assert_eq!((nearest(point).distance, nearest(point).point), (0.0, point));
+            for axis in 0..3 {
+                for step in [f64::next_up, f64::next_down] {
+                    let mut beside = point;
+                    beside[axis] = step(beside[axis]);
+                    let on = is_on_triangle(beside, CORNERS);
+                    assert_eq!(nearest(beside).distance == 0.0, on, "{beside:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn triangles_without_area_are_segments_and_points() {
+        let line = [[0.0; 3], [4.0, 0.0, 0.0], [2.0, 0.0, 0.0]];
+        let found = closest_on_triangle([3.0, 4.0, 0.0], line, 0);
+        assert_eq!((found.point, found.distance), ([3.0, 0.0, 0.0], 4.0));
+        let found = closest_on_triangle([3.0, 4.0, 0.0], [[0.0; 3]; 3], 0);
+        assert_eq!((found.point, found.distance), ([0.0; 3], 5.0));
+    }
+
+    #[test]
+    fn points_as_far_as_they_come_have_distances() {
+        for far in [1e100, 1e149, 1e151, 1e300, f64::MAX] {
+            let found = nearest([far, -far, 0.0]);
+            let expected = (far * std::f64::consts::SQRT_2).min(f64::MAX);
+            assert!((found.distance / expected - 1.0).abs() < 1e-12, "{far}: {found:?}");
+        }
+    }
+}

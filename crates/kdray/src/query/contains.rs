@@ -1,0 +1,103 @@
+//! Inside or outside.
+
+use super::{Scene, points};
+use crate::exact::is_on_triangle;
+use crate::geometry::Ray;
+use crate::primitives::Closure;
+use crate::traverse::CellWalk;
+
+impl Scene {
+    /// Whether `point` is inside the mesh or on its surface. Never so for a point that is not
+    /// finite.
+    ///
+    /// In a closed mesh ([`closure`](Self::closure)) a point is inside if a ray from there crosses
+    /// the surface an odd number of times. That is exact, one unit in the last place beside a face,
+    /// an edge or a vertex too. Which way triangles face does not matter; a closed part within
+    /// another is a hollow, and where two parts overlap is outside: the
+    /// [`winding_number`](Self::winding_number) tells such places from others.
+    ///
+    /// In an open mesh, whose triangles must face outward, a point is inside if the
+    /// [`winding_number`](Self::winding_number) is 1/2 or more. It is off by the error said there;
+    /// close to the surface, where it leaps by one, the side is told exactly.
+    ///
+    /// On the surface is exact in all meshes: the point belongs to a triangle, or to the segment or
+    /// point that one without area is.
+    ///
+    /// ```
+    /// # use kdray::{BuildOptions, Scene, TriangleMesh};
+    /// let corners = vec![[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0], [0.0, 0.0, 4.0]];
+    /// let faces = vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+    /// let scene = Scene::build(TriangleMesh::new(corners, faces)?, &Default::default())?;
+    /// assert!(scene.contains([1.0, 1.0, 1.0]));
+    /// assert!(scene.contains([1.0, 1.0, 2.0])); // on the slanted face
+    /// assert!(!scene.contains([1.0, 1.0, 2.0_f64.next_up()]));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn contains(&self, point: [f64; 3]) -> bool {
+        point.iter().all(|x| x.is_finite())
+            && (self.is_on_surface(point) || self.contains_off_surface(point))
+    }
+
+    /// [`contains`](Self::contains) of each point, on this thread: `inside[i]` is that of
+    /// `points[i]`.
+    ///
+    /// # Panics
+    /// If the slices differ in length.
+    pub fn contains_each(&self, points: &[[f64; 3]], inside: &mut [bool]) {
+        points::each(points, inside, |point| self.contains(point));
+    }
+
+    /// [`contains_each`](Self::contains_each) on all threads of the current rayon pool.
+    ///
+    /// # Panics
+    /// If the slices differ in length.
+    #[cfg(feature = "rayon")]
+    pub fn par_contains_each(&self, points: &[[f64; 3]], inside: &mut [bool]) {
+        points::par_each(points, inside, |point| self.contains(point));
+    }
+
+    /// Whether the mesh is closed, and whether it faces one way. Found out when it is first asked
+    /// for, by sorting the edges; clones of the scene share the answer.
+    pub fn closure(&self) -> Closure {
+        *self.trees.for_points.closure.get_or_init(|| Closure::of(self.mesh()))
+    }
+
+    /// Whether a point with finite coordinates lies on a triangle. Exact.
+    pub(super) fn is_on_surface(&self, point: [f64; 3]) -> bool {
+        let mesh = self.mesh();
+        let mut cells = CellWalk::new(self.tree(), point);
+        std::iter::from_fn(|| cells.next_leaf(0.0)).flatten().any(|&id| {
+            let corners = mesh.corners(id).map(|p| p.map(f64::from));
+            is_on_triangle(point, corners)
+        })
+    }
+
+    /// [`contains`](Self::contains) for a point with finite coordinates that is not on the surface.
+    pub(super) fn contains_off_surface(&self, point: [f64; 3]) -> bool {
+        if self.closure().is_closed() {
+            self.way_out(point).is_some_and(|ray| self.count(&ray) % 2 == 1)
+        } else {
+            self.winding_number(point) >= 0.5
+        }
+    }
+
+    /// A ray from the point to the nearest face of the box around the mesh, and on; `None` if the
+    /// point is outside of it. Not quite parallel to an axis, for triangles often are, and those that
+    /// a ray runs in need the exact test.
+    pub(super) fn way_out(&self, point: [f64; 3]) -> Option<Ray> {
+        let bounds = self.tree().bounds();
+        if !bounds.contains(point) {
+            return None;
+        }
+        let ways = (0..3).flat_map(|axis| {
+            let (min, max) = (f64::from(bounds.min[axis]), f64::from(bounds.max[axis]));
+            [(axis, -1.0, point[axis] - min), (axis, 1.0, max - point[axis])]
+        });
+        let (axis, sign, _) = ways.min_by(|a, b| a.2.total_cmp(&b.2))?;
+        let mut direction = [1.0 / 29.0; 3];
+        direction[axis] = sign;
+        direction[(axis + 1) % 3] = 1.0 / 53.0;
+        Some(Ray::new(point, direction))
+    }
+}

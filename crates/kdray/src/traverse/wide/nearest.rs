@@ -1,0 +1,118 @@
+//! The nearest point, by the wide tree.
+
+use crate::layout::{Link, STACK_SIZE, TriangleBlock, WideNode, WideTree};
+use crate::primitives::{ClosestPoint, closest_on_triangle};
+use arrayvec::ArrayVec;
+
+/// Half the distance from 1 to the next f32.
+const ROUNDING: f32 = f32::EPSILON / 2.0;
+
+/// A bound for the relative error of a squared distance in f32: a difference, a square and two sums,
+/// at most 5 roundings; and room to spare.
+const ERROR: f32 = 16.0 * ROUNDING;
+
+/// The nearest point of the triangles in a wide tree that is not empty; of several at the same
+/// distance, the one of the smallest primitive id. `None` if `point` is farther from zero than the
+/// tree's reach.
+///
+/// `slack` is how much smaller than the true distance a computed one may be. Distances from boxes, of
+/// nodes and around triangles, are reckoned in f32, and only leave out what is surely farther; those
+/// of points decide, and are computed in f64.
+pub(crate) fn closest_point(tree: &WideTree, point: [f64; 3], slack: f64) -> Option<ClosestPoint> {
+    let mut search = Search::new(tree, point, slack)?;
+    let mut waiting = ArrayVec::<(f32, Link), STACK_SIZE>::new();
+    waiting.push((0.0, Link::ROOT));
+    while let Some((squared, link)) = waiting.pop() {
+        if squared > search.limit {
+            continue;
+        }
+        if link.is_leaf() {
+            (0..link.block_count()).for_each(|index| search.visit(tree.block(link, index)));
+        } else {
+            search.push_children(tree.node(link), &mut waiting);
+        }
+    }
+    search.nearest
+}
+
+/// A point, and what was found so far.
+struct Search {
+    point: [f64; 3],
+    slack: f64,
+    /// Between these the point surely is.
+    low: [f32; 3],
+    high: [f32; 3],
+    nearest: Option<ClosestPoint>,
+    /// What is farther, squared, cannot be the nearest.
+    limit: f32,
+}
+
+impl Search {
+    fn new(tree: &WideTree, point: [f64; 3], slack: f64) -> Option<Self> {
+        let reach = tree.reach();
+        if point.iter().any(|x| x.abs() > f64::from(reach)) {
+            return None;
+        }
+        // The coordinate is rounded once, and once more with the margin.
+        let margin = 4.0 * ROUNDING * reach;
+        let (low, high) = (point.map(|x| x as f32 - margin), point.map(|x| x as f32 + margin));
+        Some(Self { point, slack, low, high, nearest: None, limit: f32::MAX })
+    }
+
+    /// Puts the children that may hold the nearest point on the stack, the nearest on top.
+    #[inline]
+    fn push_children(&self, node: &WideNode, waiting: &mut ArrayVec<(f32, Link), STACK_SIZE>) {
+        let squared = self.squared_distances([0, 1, 2].map(|axis| *node.planes(axis)));
+        let first = waiting.len();
+        for (place, &squared) in squared.iter().enumerate() {
+            if squared <= self.limit {
+                waiting.push((squared, Link::from_bits(node.links()[place])));
+            }
+        }
+        waiting[first..].sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
+    }
+
+    /// Computes the nearest points of those triangles of a block whose boxes are near enough.
+    #[inline]
+    fn visit(&mut self, block: &TriangleBlock) {
+        let boxes = [0, 1, 2].map(|axis| {
+            let [a, b, c] = [0, 1, 2].map(|corner| block.corner(corner, axis));
+            let low = std::array::from_fn(|lane| a[lane].min(b[lane]).min(c[lane]));
+            let high = std::array::from_fn(|lane| a[lane].max(b[lane]).max(c[lane]));
+            [low, high]
+        });
+        let squared = self.squared_distances(boxes);
+        for (lane, &squared) in squared.iter().enumerate() {
+            // A lane without triangle is NaN.
+            if squared <= self.limit && !boxes[0][0][lane].is_nan() {
+                self.test(block, lane);
+            }
+        }
+    }
+
+    fn test(&mut self, block: &TriangleBlock, lane: usize) {
+        let corners = block.triangle(lane).map(|p| p.map(f64::from));
+        let found = closest_on_triangle(self.point, corners, block.id(lane));
+        if self.nearest.is_none_or(|nearest| found.precedes(&nearest)) {
+            let limit = found.distance + self.slack;
+            self.limit = ((limit * limit) as f32 * (1.0 + ERROR)).min(f32::MAX);
+            self.nearest = Some(found);
+        }
+    }
+
+    /// Bounds that the squared distances of eight boxes are not below, but for [`ERROR`], which the
+    /// limit allows for. Infinite, or above the largest limit, where there is no box.
+    #[inline]
+    fn squared_distances(&self, boxes: [[[f32; 8]; 2]; 3]) -> [f32; 8] {
+        let mut sum = [0.0; 8];
+        for (axis, [low, high]) in boxes.iter().enumerate() {
+            for lane in 0..8 {
+                let below = low[lane] - self.high[axis];
+                let above = self.low[axis] - high[lane];
+                let gap = below.max(above).max(0.0);
+                sum[lane] += gap * gap;
+            }
+        }
+        sum
+    }
+}
