@@ -151,7 +151,7 @@ fn files_that_hold_no_points_are_refused_by_place() {
     folder.file("rays.csv", csv(&rays(2, 6)));
     folder.file("word.csv", "1,2,3\n1,x,3\n");
     for (file, parts) in [
-        ("rays.npy", &["shape (2, 6): points must be N x 3 (x, y, z)"][..]),
+        ("rays.npy", &["shape (2, 6,): points must be N x 3 (x, y, z)"][..]),
         ("whole.npy", &["dtype '<i8': points must be 32- or 64-bit floats"]),
         ("rays.csv", &["line 1: has 6 numbers; give 3 (x, y, z), with commas between"]),
         ("word.csv", &["line 2: `x` is not a number"]),

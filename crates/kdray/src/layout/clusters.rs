@@ -41,7 +41,7 @@ struct Piece {
 
 impl Clusters {
     /// Puts the triangles of a mesh in clusters; those without area, which cover nothing, are left
-    /// out. O(N log² N); takes 56 bytes a triangle more while it works.
+    /// out. O(N log N); takes 56 bytes a triangle more while it works.
     pub fn of(mesh: &TriangleMesh) -> Self {
         let pieces = (0..mesh.count() as u32).map(|id| Piece::of(mesh, id));
         let mut pieces: Vec<Piece> = pieces.filter(|p| p.normal != DVec3::ZERO).collect();

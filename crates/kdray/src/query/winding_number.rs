@@ -18,7 +18,7 @@ impl Scene {
     /// counts zero, so on a smooth part of the surface the number is the middle of those on both
     /// sides.
     ///
-    /// The clusters are made when they are first needed, in O(N log² N), and kept: some 70
+    /// The clusters are made when they are first needed, in O(N log N), and kept: some 70
     /// bytes a triangle. Clones of the scene share them.
     ///
     /// ```
@@ -63,7 +63,8 @@ impl Scene {
     /// How many more parts a ray leaves than it enters.
     fn parts_around(&self, point: [f64; 3]) -> f64 {
         let hits = self.way_out(point).into_iter().flat_map(|ray| self.all_hits(&ray));
-        hits.map(|hit| if hit.side == Side::Back { 1.0 } else { -1.0 }).sum()
+        // Not by `sum`, of which that over nothing is -0.
+        hits.fold(0.0, |sum, hit| if hit.side == Side::Back { sum + 1.0 } else { sum - 1.0 })
     }
 
     fn clusters(&self) -> &Clusters {
