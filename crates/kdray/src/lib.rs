@@ -19,10 +19,10 @@ pub mod traverse;
 pub mod tree;
 
 pub use build::{BuildError, BuildOptions, BuildProgress, CostModel, Preset, Strategy};
-pub use geometry::{Aabb, Interval, Ray, RayError, RayPacket};
+pub use geometry::{Aabb, Coordinate, Interval, Ray, RayError, RayPacket};
 pub use layout::Hint;
 pub use primitives::{Hit, MeshError, Side, TriangleMesh};
-pub use query::{Arithmetic, PacketWork, Scene, ShapeScene};
+pub use query::{Arithmetic, PacketWork, Precision, Scene, ShapeScene};
 pub use simd::InstructionSet;
 pub use tree::{KdTree, TreeStats};
 

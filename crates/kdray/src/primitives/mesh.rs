@@ -1,16 +1,23 @@
 //! Triangle meshes.
 
 use super::{Hit, HitRule, Intersect, Primitives, intersect_triangle};
-use crate::geometry::{Aabb, Ray, clipped_bounds, split_bounds};
+use crate::geometry::{
+    Aabb, Coordinate, Ray, TreeSpace, bounds_of, clipped_bounds_of, split_bounds_of,
+};
 use thiserror::Error;
 
 /// Triangles that share vertices: positions, and three indices into them a triangle.
 ///
 /// Degenerate triangles are kept and never hit; duplicates are kept; an empty mesh is valid.
+///
+/// Positions are f32, or f64 if f32 would round them: see [`Coordinate`]. All of f64 will do, whatever
+/// the size of the mesh and however far it is from zero; trees over such a mesh are in coordinates of
+/// their own ([`tree_space`](Self::tree_space)).
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct TriangleMesh {
-    vertices: Vec<[f32; 3]>,
+pub struct TriangleMesh<T = f32> {
+    vertices: Vec<[T; 3]>,
     triangles: Vec<[u32; 3]>,
+    space: TreeSpace,
 }
 
 /// Why a mesh cannot be used.
@@ -42,7 +49,7 @@ pub enum MeshError {
     TooManyTriangles(usize),
 }
 
-impl TriangleMesh {
+impl<T: Coordinate> TriangleMesh<T> {
     /// A tree's indices have 30 bits.
     const MAX_TRIANGLES: usize = 1 << 30;
 
@@ -51,14 +58,15 @@ impl TriangleMesh {
     /// # Errors
     /// The first triangle that has an index out of range or a vertex that is not finite; 2^30
     /// triangles or more.
-    pub fn new(vertices: Vec<[f32; 3]>, triangles: Vec<[u32; 3]>) -> Result<Self, MeshError> {
+    pub fn new(vertices: Vec<[T; 3]>, triangles: Vec<[u32; 3]>) -> Result<Self, MeshError> {
         if triangles.len() >= Self::MAX_TRIANGLES {
             return Err(MeshError::TooManyTriangles(triangles.len()));
         }
         for (index, triangle) in triangles.iter().enumerate() {
             check_triangle(&vertices, index, triangle)?;
         }
-        Ok(Self { vertices, triangles })
+        let space = tree_space(&vertices, &triangles);
+        Ok(Self { vertices, triangles, space })
     }
 
     /// Like [`new`](Self::new), but drops the triangles it would refuse, and returns the indices
@@ -67,7 +75,7 @@ impl TriangleMesh {
     /// # Errors
     /// Only that 2^30 triangles or more are left.
     pub fn new_dropping_bad(
-        vertices: Vec<[f32; 3]>,
+        vertices: Vec<[T; 3]>,
         mut triangles: Vec<[u32; 3]>,
     ) -> Result<(Self, Vec<usize>), MeshError> {
         let mut dropped = Vec::new();
@@ -87,10 +95,10 @@ impl TriangleMesh {
     ///
     /// # Errors
     /// As [`new`](Self::new).
-    pub fn from_soup<V: Into<[f32; 3]>>(
+    pub fn from_soup<V: Into<[T; 3]>>(
         soup: impl IntoIterator<Item = [V; 3]>,
     ) -> Result<Self, MeshError> {
-        let vertices: Vec<[f32; 3]> = soup.into_iter().flatten().map(Into::into).collect();
+        let vertices: Vec<[T; 3]> = soup.into_iter().flatten().map(Into::into).collect();
         let count = vertices.len() / 3;
         if count >= Self::MAX_TRIANGLES {
             return Err(MeshError::TooManyTriangles(count));
@@ -100,7 +108,7 @@ impl TriangleMesh {
     }
 
     /// The vertex positions.
-    pub fn vertices(&self) -> &[[f32; 3]] {
+    pub fn vertices(&self) -> &[[T; 3]] {
         &self.vertices
     }
 
@@ -110,20 +118,51 @@ impl TriangleMesh {
     }
 
     /// The corners a, b, c of a triangle.
-    pub fn corners(&self, id: u32) -> [[f32; 3]; 3] {
+    pub fn corners(&self, id: u32) -> [[T; 3]; 3] {
         let [a, b, c] = self.triangles[id as usize];
         [self.vertices[a as usize], self.vertices[b as usize], self.vertices[c as usize]]
     }
 
     /// (b−a) x (c−a) of a triangle: its normal, of twice its area in length.
     pub fn geometric_normal(&self, id: u32) -> [f64; 3] {
-        let [a, b, c] = self.corners(id).map(|p| glam::DVec3::from(p.map(f64::from)));
+        let [a, b, c] = self.corners(id).map(|p| glam::DVec3::from(p.map(T::to_f64)));
         (b - a).cross(c - a).into()
+    }
+
+    /// The coordinates that trees over this mesh are in: for f32 the mesh's own.
+    pub fn tree_space(&self) -> &TreeSpace {
+        &self.space
+    }
+
+    /// The corners of a triangle as the tree sees them, and how far from them a ray may pass there that
+    /// meets them in the mesh.
+    #[inline]
+    fn tree_corners(&self, id: u32) -> ([[f64; 3]; 3], f64) {
+        let corner = |p: [T; 3]| self.space.point(p.map(T::to_f64));
+        (self.corners(id).map(corner), TreeSpace::ERROR)
+    }
+
+    /// The same, rounded to f32.
+    pub(crate) fn rounded_corners(&self, id: u32) -> [[f32; 3]; 3] {
+        self.tree_corners(id).0.map(|p| p.map(|x| x as f32))
     }
 }
 
-fn check_triangle(
-    vertices: &[[f32; 3]],
+/// The coordinates of trees over these triangles.
+fn tree_space<T: Coordinate>(vertices: &[[T; 3]], triangles: &[[u32; 3]]) -> TreeSpace {
+    let (mut min, mut max) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+    if !T::FITS_TREE {
+        for position in triangles.iter().flatten().map(|&vertex| vertices[vertex as usize]) {
+            for (k, x) in position.into_iter().enumerate() {
+                (min[k], max[k]) = (min[k].min(x.to_f64()), max[k].max(x.to_f64()));
+            }
+        }
+    }
+    TreeSpace::around::<T>(min, max)
+}
+
+fn check_triangle<T: Coordinate>(
+    vertices: &[[T; 3]],
     index: usize,
     triangle: &[u32; 3],
 ) -> Result<(), MeshError> {
@@ -132,24 +171,32 @@ fn check_triangle(
             let vertices = vertices.len();
             return Err(MeshError::IndexOutOfRange { triangle: index, vertex, vertices });
         };
-        if !position.iter().all(|x| x.is_finite()) {
+        if !position.iter().all(|x| x.to_f64().is_finite()) {
             return Err(MeshError::NonFiniteVertex { triangle: index, vertex });
         }
     }
     Ok(())
 }
 
-impl Primitives<3> for TriangleMesh {
+impl<T: Coordinate> Primitives<3> for TriangleMesh<T> {
     fn count(&self) -> usize {
         self.triangles.len()
     }
 
     fn bounds(&self, id: u32) -> Aabb<3> {
-        Aabb::of_points(self.corners(id))
+        if T::FITS_TREE {
+            return bounds_of(&self.corners(id), 0.0);
+        }
+        let (corners, error) = self.tree_corners(id);
+        bounds_of(&corners, error)
     }
 
     fn clipped_bounds(&self, id: u32, cell: &Aabb<3>) -> Option<Aabb<3>> {
-        clipped_bounds(&self.corners(id), cell)
+        if T::FITS_TREE {
+            return clipped_bounds_of(&self.corners(id), 0.0, cell);
+        }
+        let (corners, error) = self.tree_corners(id);
+        clipped_bounds_of(&corners, error, cell)
     }
 
     fn split_bounds(
@@ -159,11 +206,20 @@ impl Primitives<3> for TriangleMesh {
         axis: usize,
         position: f32,
     ) -> [Option<Aabb<3>>; 2] {
-        split_bounds(&self.corners(id), cell, axis, position)
+        if T::FITS_TREE {
+            return split_bounds_of(&self.corners(id), 0.0, cell, axis, position);
+        }
+        let (corners, error) = self.tree_corners(id);
+        split_bounds_of(&corners, error, cell, axis, position)
+    }
+
+    #[inline]
+    fn ray_in_tree(&self, ray: &Ray<3>) -> Option<Ray<3>> {
+        if T::FITS_TREE { Some(*ray) } else { self.space.ray(ray) }
     }
 }
 
-impl Intersect<3> for TriangleMesh {
+impl<T: Coordinate> Intersect<3> for TriangleMesh<T> {
     #[inline]
     fn intersect(&self, id: u32, ray: &Ray<3>, rule: HitRule, report: &mut impl FnMut(Hit)) {
         if let Some(hit) = intersect_triangle(&self.corners(id), id, ray, rule) {

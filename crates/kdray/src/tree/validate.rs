@@ -338,7 +338,7 @@ mod tests {
             let nodes = inner.chain((0..=splits).map(|_| Node::leaf(0, 0))).collect();
             KdTree { bounds: Aabb { min: [0.0; 3], max: [1.0; 3] }, nodes, references: vec![] }
         };
-        let empty = TriangleMesh::new(vec![], vec![]).unwrap();
+        let empty = TriangleMesh::<f32>::new(vec![], vec![]).unwrap();
         assert_eq!(chain(64).validate(&empty), Ok(()));
         let expected = TreeError::TooDeep { node: 65, depth: 65 };
         assert_eq!(chain(65).validate(&empty), Err(expected));

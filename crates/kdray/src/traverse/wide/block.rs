@@ -3,6 +3,7 @@
 use super::aim::Aim;
 use super::rounding::{ROUNDING, UNDERFLOW};
 use super::vector::{Vector, cross, difference, dot, flip_sign, largest, splat};
+use crate::geometry::{Coordinate, TreeSpace};
 use crate::layout::TriangleBlock;
 use crate::simd::Lanes;
 use fearless_simd::prelude::*;
@@ -15,6 +16,10 @@ pub(super) const T_ERROR: f32 = 40.0 * ROUNDING;
 /// What m and n count as at least, 2^-50. What underflow takes of den, 2^-148 and as much a unit of
 /// m, is multiplied by t. As t's share of the error is m n D by 40 u, and D ≥ 2^-16, that is more.
 const LEAST_EDGE: f32 = 1.0 / (1_u64 << 50) as f32;
+
+/// What ē counts as at least for corners that were rounded, and by how much M counts as more.
+const LEAST_ROUNDED_EDGE: f32 = 8.0 * ROUNDING * TreeSpace::FARTHEST;
+const ROUNDED_DISTANCE: f32 = 0.25 * TreeSpace::FARTHEST;
 
 /// Möller and Trumbore's numbers (1997) of eight triangles, with the sign of den taken out: a ray
 /// hits where U, V and W are not negative, at t = T / den.
@@ -50,7 +55,11 @@ pub(super) struct Depths<S: Lanes> {
 impl<S: Lanes> BlockTest<S> {
     /// The error bounds are only right if EXACT; otherwise zero.
     #[inline(always)]
-    pub(super) fn new<const EXACT: bool>(simd: S, block: &TriangleBlock, aim: &Aim) -> Self {
+    pub(super) fn new<T: Coordinate, const EXACT: bool>(
+        simd: S,
+        block: &TriangleBlock,
+        aim: &Aim,
+    ) -> Self {
         let (a, b, c) = (corner(simd, block, 0), corner(simd, block, 1), corner(simd, block, 2));
         let (e1, e2) = (difference(b, a), difference(c, a));
         let (origin, direction) = (splat(simd, &aim.origin), splat(simd, &aim.direction));
@@ -60,7 +69,7 @@ impl<S: Lanes> BlockTest<S> {
         let (den, u, v, volume) = (dot(p, e1), dot(p, s), dot(q, direction), dot(q, e2));
         let w = den - u - v;
         let [edge_error, near_error, far_error, origin_error, t_error] = if EXACT {
-            error_bounds(simd, aim, [largest(e1), largest(e2), largest(s)])
+            error_bounds::<S, T>(simd, aim, [largest(e1), largest(e2), largest(s)])
         } else {
             [f32x8::splat(simd, 0.0); 5]
         };
@@ -130,12 +139,35 @@ impl<S: Lanes> BlockTest<S> {
 /// An origin that is not an f32 is off by E: U by 2·D·ē·E, T by 6·m·n·E. With M not below
 /// E / (2 u), as [`Aim`] sees to, that is at most 4 u D ē M, for W 8 u D ē M, and 12 u m n M more: 46
 /// and 60 in all.
+///
+/// # Corners that were rounded
+/// Those of f64 meshes are off by ρ = u (1 + 2^-20) at most on each axis, for the tree's coordinates are
+/// below 2; in that is what f64 does to corners and origin (see [`TreeSpace`]). All above holds for the
+/// triangle as it stands in the block. The true one is another, so let the ray hit one of the two, at
+/// Q, and see how far the numbers of the other are off. U does not change if the origin moves along the
+/// ray, so take it from Q, which is not farther than ē from a and 2 ē from b and c. Of the other
+/// triangle an edge differs by 2 ρ and a corner by ρ, and ē by 2 ρ: U and V by
+/// 2 D (3 ρ (ē + 2 ρ) + 2 ρ²), W, of the edge bc, by 2 D (6 ρ (ē + 2 ρ) + 2 ρ²), den by
+/// 2 D (4 ρ ē + 4 ρ²). If that makes den change its sign, the true den is below it, and so are U, V and W:
+/// in all 20 ρ D ē + 36 ρ² D at most. A larger M by 1/2 gives 24 ρ D ē, which is as much if ē is not
+/// below 16 ρ.
+///
+/// At the true t of the hit, Q lies in one plane and by ρ at most off the other: |T − t·den| is not above
+/// 6 m n ρ. A larger M by 1/2 gives 32 m n ρ.
 #[inline(always)]
-fn error_bounds<S: Lanes>(simd: S, aim: &Aim, [m, n, distance]: [f32x8<S>; 3]) -> [f32x8<S>; 5] {
+fn error_bounds<S: Lanes, T: Coordinate>(
+    simd: S,
+    aim: &Aim,
+    [m, n, distance]: [f32x8<S>; 3],
+) -> [f32x8<S>; 5] {
     let all = |x: f32| f32x8::splat(simd, x);
     let distance = distance.max(all(aim.least_distance));
     let (m, n) = (m.max(all(LEAST_EDGE)), n.max(all(LEAST_EDGE)));
-    let edge = m.max(n);
+    let (edge, distance) = if T::FITS_TREE {
+        (m.max(n), distance)
+    } else {
+        (m.max(n).max(all(LEAST_ROUNDED_EDGE)), distance + ROUNDED_DISTANCE)
+    };
     let edge_error = (edge * (edge + distance)).mul_add(all(aim.edge_rate), all(UNDERFLOW));
     let volume_rate = distance * all(VOLUME_ERROR);
     let edges = m * n;
