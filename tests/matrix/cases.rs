@@ -116,7 +116,11 @@ pub(crate) static TRIANGLES_F64: LazyLock<Vec<Case<TriangleMesh<f64>, 3>>> = Laz
         case("sheets in a national grid", 60, meshes::placed(&meshes::grid(5, 2), 0.001, GRID)),
         case("axis-aligned boxes", 61, meshes::placed(&meshes::boxes(2), 0.1, GRID)),
         case("needles", 62, meshes::in_f64(&meshes::needles(80, 62))),
-        case("degenerate and double triangles", 63, meshes::placed(&meshes::degenerate(63), 1.0, GRID)),
+        case(
+            "degenerate and double triangles",
+            63,
+            meshes::placed(&meshes::degenerate(63), 1.0, GRID),
+        ),
         Case::new("sphere", 64, FAR, meshes::mesh_in_f64(&meshes::sphere(7))),
         case("one triangle", 65, meshes::placed(&meshes::soup(1, [0.0; 3], 1.0, 65), 1.0, GRID)),
         case("identical triangles", 66, meshes::in_f64(&[meshes::grid(1, 1)[0]; 40].to_vec())),

@@ -160,7 +160,9 @@ impl<'a, S: Subject<K>, const K: usize> Archer<'a, S, K> {
     /// A point in the box of all primitives, grown on each side by `margin` diagonals.
     pub(crate) fn around(&mut self, margin: f64) -> [f64; K] {
         let margin = margin * self.diagonal();
-        std::array::from_fn(|k| self.random.random_range(self.min[k] - margin..=self.max[k] + margin))
+        std::array::from_fn(|k| {
+            self.random.random_range(self.min[k] - margin..=self.max[k] + margin)
+        })
     }
 
     pub(crate) fn zero(&mut self) -> f64 {

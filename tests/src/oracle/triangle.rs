@@ -1,8 +1,8 @@
 //! A line and a triangle in space.
 
 use super::{ExactHit, Terms, decide, integers, ratio, share, side_of, surely_missed};
-use kdray::{Coordinate, Ray};
 use kdray::primitives::HitRule;
+use kdray::{Coordinate, Ray};
 
 /// Where the line of `ray` hits the triangle by `rule`, whatever the ray's interval.
 pub fn exact_triangle_hit<T: Coordinate>(

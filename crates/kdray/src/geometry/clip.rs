@@ -57,7 +57,8 @@ pub(crate) fn clipped_bounds_of<T: Coordinate, const K: usize>(
 
 /// The box around all points that are so near the polygon.
 pub(crate) fn bounds_of<T: Coordinate, const K: usize>(polygon: &[[T; K]], error: f64) -> Aabb<K> {
-    let around = |p: &[T; K]| Aabb { min: p.map(|x| x.below(error)), max: p.map(|x| x.above(error)) };
+    let around =
+        |p: &[T; K]| Aabb { min: p.map(|x| x.below(error)), max: p.map(|x| x.above(error)) };
     polygon.iter().fold(Aabb::EMPTY, |bounds, p| bounds.union(&around(p)))
 }
 
@@ -371,6 +372,42 @@ mod tests {
                     prop_assert!((0..3).all(|k| near(found.min[k], apart.min[k])));
                     prop_assert!((0..3).all(|k| near(found.max[k], apart.max[k])));
                 }
+            }
+        }
+    }
+
+    proptest! {
+        /// A point of the cell that is as near as the error to the triangle is in the bounds, and in those
+        /// of the half that it lies in.
+        #[test]
+        fn what_is_near_is_within(
+            corners in prop::array::uniform3(prop::array::uniform3(-2.0..2.0_f64)),
+            off in prop::array::uniform3(-1.0..1.0_f64),
+            error in prop::sample::select(vec![1e-14, 1e-9, 1e-3]),
+            axis in 0_usize..3,
+            position in -0.9_f32..0.9,
+            (u, v, flat) in (0.0..1.0, 0.0..1.0, any::<bool>()),
+        ) {
+            let corners = corners.map(|[x, y, z]| if flat { [x, y, 0.3] } else { [x, y, z] });
+            let (u, v): (f64, f64) = if u + v > 1.0 { (1.0 - u, 1.0 - v) } else { (u, v) };
+            let [a, b, c] = corners;
+            let cell = Aabb { min: [-1.0; 3], max: [1.0; 3] };
+            // A little less than the error, for here the point is rounded as well.
+            let point = [0, 1, 2].map(|k| {
+                a[k] + u * (b[k] - a[k]) + v * (c[k] - a[k]) + 0.9 * error * off[k]
+            });
+            prop_assert!(bounds_of(&corners, error).contains(point));
+            prop_assume!(cell.contains(point));
+            let found = clipped_bounds_of(&corners, error, &cell);
+            prop_assert!(found.is_some_and(|found| found.contains(point)), "{:?}", found);
+            let (below, above) = cell.split(axis, position);
+            let halves = split_bounds_of(&corners, error, &cell, axis, position);
+            for (found, half) in halves.into_iter().zip([below, above]) {
+                let is_in = found.is_some_and(|found| found.contains(point));
+                prop_assert!(is_in || !half.contains(point), "{:?}", found);
+                let apart = clipped_bounds_of(&corners, error, &half);
+                let is_in = apart.is_some_and(|apart| apart.contains(point));
+                prop_assert!(is_in || !half.contains(point), "{:?}", apart);
             }
         }
     }

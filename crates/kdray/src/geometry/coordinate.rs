@@ -1,5 +1,6 @@
 //! What the coordinates of vertices are: f32 or f64.
 
+use super::TreeSpace;
 use std::fmt::Debug;
 
 /// A coordinate of a vertex: f32 or f64. Nothing else can be one.
@@ -8,14 +9,21 @@ use std::fmt::Debug;
 /// on the given numbers.
 pub trait Coordinate: Sealed + Copy + Debug + Default + PartialOrd + Send + Sync + 'static {
     /// Whether trees hold these numbers as they are. Others are moved and scaled first, then rounded:
-    /// see [`TreeSpace`](super::TreeSpace).
+    /// see [`TreeSpace`].
     const FITS_TREE: bool;
+
+    /// How far, in the tree's coordinates, a ray may pass a point there that it meets in the mesh. Zero for
+    /// numbers that fit.
+    const TREE_ERROR: f64;
 
     /// The same number.
     fn to_f64(self) -> f64;
 
     /// The same number.
     fn from_f32(x: f32) -> Self;
+
+    /// The number next to it.
+    fn from_f64(x: f64) -> Self;
 
     /// An f32 that is not above `self − error`, if `self` is not far out of its range. The error of a
     /// number that fits is zero.
@@ -34,6 +42,7 @@ use sealed::Sealed;
 
 impl Coordinate for f32 {
     const FITS_TREE: bool = true;
+    const TREE_ERROR: f64 = 0.0;
 
     #[inline(always)]
     fn to_f64(self) -> f64 {
@@ -43,6 +52,11 @@ impl Coordinate for f32 {
     #[inline(always)]
     fn from_f32(x: f32) -> Self {
         x
+    }
+
+    #[inline(always)]
+    fn from_f64(x: f64) -> Self {
+        x as f32
     }
 
     #[inline(always)]
@@ -60,6 +74,7 @@ impl Coordinate for f32 {
 
 impl Coordinate for f64 {
     const FITS_TREE: bool = false;
+    const TREE_ERROR: f64 = TreeSpace::ERROR;
 
     #[inline(always)]
     fn to_f64(self) -> f64 {
@@ -69,6 +84,11 @@ impl Coordinate for f64 {
     #[inline(always)]
     fn from_f32(x: f32) -> Self {
         f64::from(x)
+    }
+
+    #[inline(always)]
+    fn from_f64(x: f64) -> Self {
+        x
     }
 
     #[inline]

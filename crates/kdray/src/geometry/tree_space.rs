@@ -41,7 +41,7 @@ impl TreeSpace {
     /// The space for a mesh whose points lie between `min` and `max`; the mesh's own for coordinates that
     /// fit, and if there are no points.
     pub(crate) fn around<T: Coordinate>(min: [f64; 3], max: [f64; 3]) -> Self {
-        if T::FITS_TREE || !(min[0] <= max[0]) {
+        if T::FITS_TREE || min[0] > max[0] {
             return Self::OF_MESH;
         }
         // Halved first, so that nothing overflows.

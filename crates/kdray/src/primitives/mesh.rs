@@ -10,9 +10,10 @@ use thiserror::Error;
 ///
 /// Degenerate triangles are kept and never hit; duplicates are kept; an empty mesh is valid.
 ///
-/// Positions are f32, or f64 if f32 would round them: see [`Coordinate`]. All of f64 will do, whatever
-/// the size of the mesh and however far it is from zero; trees over such a mesh are in coordinates of
-/// their own ([`tree_space`](Self::tree_space)).
+/// Positions are f32, or f64 if f32 would round them: the mesh's type is that of the numbers it is made
+/// of, and a literal without a suffix is an f64. All of f64 will do, whatever the size of the mesh and
+/// however far it is from zero; trees over such a mesh are in coordinates of their own
+/// ([`tree_space`](Self::tree_space)).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TriangleMesh<T = f32> {
     vertices: Vec<[T; 3]>,
@@ -134,17 +135,19 @@ impl<T: Coordinate> TriangleMesh<T> {
         &self.space
     }
 
-    /// The corners of a triangle as the tree sees them, and how far from them a ray may pass there that
-    /// meets them in the mesh.
+    /// The corners of a triangle as the tree sees them.
     #[inline]
-    fn tree_corners(&self, id: u32) -> ([[f64; 3]; 3], f64) {
-        let corner = |p: [T; 3]| self.space.point(p.map(T::to_f64));
-        (self.corners(id).map(corner), TreeSpace::ERROR)
+    fn tree_corners(&self, id: u32) -> [[T; 3]; 3] {
+        let corners = self.corners(id);
+        if T::FITS_TREE {
+            return corners;
+        }
+        corners.map(|p| self.space.point(p.map(T::to_f64)).map(T::from_f64))
     }
 
     /// The same, rounded to f32.
     pub(crate) fn rounded_corners(&self, id: u32) -> [[f32; 3]; 3] {
-        self.tree_corners(id).0.map(|p| p.map(|x| x as f32))
+        self.tree_corners(id).map(|p| p.map(|x| x.to_f64() as f32))
     }
 }
 
@@ -184,19 +187,11 @@ impl<T: Coordinate> Primitives<3> for TriangleMesh<T> {
     }
 
     fn bounds(&self, id: u32) -> Aabb<3> {
-        if T::FITS_TREE {
-            return bounds_of(&self.corners(id), 0.0);
-        }
-        let (corners, error) = self.tree_corners(id);
-        bounds_of(&corners, error)
+        bounds_of(&self.tree_corners(id), T::TREE_ERROR)
     }
 
     fn clipped_bounds(&self, id: u32, cell: &Aabb<3>) -> Option<Aabb<3>> {
-        if T::FITS_TREE {
-            return clipped_bounds_of(&self.corners(id), 0.0, cell);
-        }
-        let (corners, error) = self.tree_corners(id);
-        clipped_bounds_of(&corners, error, cell)
+        clipped_bounds_of(&self.tree_corners(id), T::TREE_ERROR, cell)
     }
 
     fn split_bounds(
@@ -206,11 +201,7 @@ impl<T: Coordinate> Primitives<3> for TriangleMesh<T> {
         axis: usize,
         position: f32,
     ) -> [Option<Aabb<3>>; 2] {
-        if T::FITS_TREE {
-            return split_bounds_of(&self.corners(id), 0.0, cell, axis, position);
-        }
-        let (corners, error) = self.tree_corners(id);
-        split_bounds_of(&corners, error, cell, axis, position)
+        split_bounds_of(&self.tree_corners(id), T::TREE_ERROR, cell, axis, position)
     }
 
     #[inline]

@@ -15,7 +15,6 @@ type Progress<'a> = &'a (dyn Fn(BuildProgress) -> ControlFlow<()> + Sync);
 ///
 /// Its methods are those of the scene. They are here so that the builders and the kernels are compiled once
 /// for each precision, in this crate, and not anew in each that uses scenes.
-#[allow(missing_docs, reason = "they are documented at the scene")]
 pub trait Precision: Coordinate {
     #[doc(hidden)]
     fn build(

@@ -183,3 +183,100 @@ fn corner<S: Lanes>(simd: S, block: &TriangleBlock, place: usize) -> Vector<S> {
     let load = |axis| f32x8::load_array_ref(simd, block.corner(place, axis));
     [load(0), load(1), load(2)]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::build::{BuildOptions, Preset};
+    use crate::geometry::Ray;
+    use crate::layout::{Link, WideTree};
+    use crate::primitives::{HitRule, TriangleMesh, intersect_triangle};
+    use crate::simd::{InstructionSet, Kernel};
+    use crate::tree::KdTree;
+    use rand::{RngExt, SeedableRng};
+    use std::marker::PhantomData;
+    use std::ops::ControlFlow;
+
+    /// What the filter says of the triangles of a tree's only block: candidates, and which are sure.
+    struct Filter<'a, T>(&'a WideTree, &'a Ray<3>, PhantomData<T>);
+
+    impl<T: Coordinate> Kernel for Filter<'_, T> {
+        type Output = [u64; 2];
+
+        #[inline(always)]
+        fn run<S: Lanes>(self, simd: S) -> [u64; 2] {
+            let Self(tree, ray, _) = self;
+            let mut aim = Aim::NONE;
+            if aim.set::<S, T>(simd, tree, ray).is_err() {
+                return [0; 2];
+            }
+            let leaf = Link::from_bits(tree.node(Link::ROOT).links()[0]);
+            let test = BlockTest::new::<T, true>(simd, tree.block(leaf, 0), &aim);
+            [test.candidates(&aim).to_bitmask(), test.sure(&aim).to_bitmask()]
+        }
+    }
+
+    /// Eight triangles of that size within one around a centre; and rays at, and close to, their edges
+    /// and corners. How many of the answers were doubtful, and how many were sure.
+    fn check<T: Coordinate>(size: f64, center: [f64; 3], seed: u64) -> [usize; 2] {
+        let mut random = rand_pcg::Pcg64::seed_from_u64(seed);
+        let mut near = |p: [f64; 3], by: f64| p.map(|x| x + by * random.random_range(-1.0..1.0));
+        let soup: Vec<[[T; 3]; 3]> = (0..8)
+            .map(|_| {
+                let middle = near(center, 1.0);
+                [0; 3].map(|_| near(middle, size).map(T::from_f64))
+            })
+            .collect();
+        let mesh = TriangleMesh::from_soup(soup).unwrap();
+        let one_leaf = BuildOptions { leaf_size: 8, ..BuildOptions::preset(Preset::Best) };
+        let one_leaf = BuildOptions { strategy: crate::Strategy::Middle, ..one_leaf };
+        let go_on = |_| ControlFlow::Continue(());
+        let (tree, boxes) = KdTree::build_with_boxes(&mesh, &one_leaf, &go_on).unwrap();
+        let tree = WideTree::new(&tree, &boxes, &mesh, &one_leaf).unwrap().unwrap();
+        let mut counts = [0; 2];
+        for round in 0..4000 {
+            let id = round % 8;
+            let [a, b, c] = mesh.corners(id).map(|p| p.map(T::to_f64));
+            let s = [0.0, 0.3, 0.5, 1.0][round as usize / 8 % 4];
+            let by = 10.0_f64.powi(-(round as i32 / 32 % 10));
+            let target = near([0, 1, 2].map(|k| b[k] + s * (c[k] - b[k])), by * size);
+            let origin = if round % 3 == 0 { near(a, 2.0 * size) } else { near(center, 3.0) };
+            // Half of the origins are such that f32 hardly rounds them, for that blurs the filter, too.
+            let (space, grid) = (tree.space(), f64::from(1 << 20));
+            let short = space.point(origin).map(|x| (x * grid).round() / grid);
+            let short = [0, 1, 2].map(|k| short[k] / space.scale() + space.center()[k]);
+            let origin = if round % 2 == 0 { short } else { origin };
+            let ray = Ray::through(origin, target);
+            let ray = if round % 5 == 0 { ray.with_interval(0.0, 1.0) } else { ray };
+            for set in InstructionSet::available() {
+                let [candidates, sure] = set.run(Filter(&tree, &ray, PhantomData::<T>));
+                for lane in 0..8 {
+                    let leaf = Link::from_bits(tree.node(Link::ROOT).links()[0]);
+                    let id = tree.block(leaf, 0).id(lane);
+                    let hit = intersect_triangle(&mesh.corners(id), id, &ray, HitRule::Touching);
+                    let (may, must) = (candidates >> lane & 1 == 1, sure >> lane & 1 == 1);
+                    assert!(may || hit.is_none(), "{set} leaves out {hit:?} of {ray:?}, {size}");
+                    assert!(!must || hit.is_some(), "{set} is sure of {id} and {ray:?}, {size}");
+                    counts[0] += usize::from(may && !must);
+                    counts[1] += usize::from(must);
+                }
+            }
+        }
+        counts
+    }
+
+    #[test]
+    fn the_filter_is_right_of_what_it_is_sure() {
+        for (seed, size) in [1.0, 0.1, 1e-2, 1e-3, 1e-4].into_iter().enumerate() {
+            let here = check::<f32>(size, [0.0; 3], seed as u64);
+            let rounded = check::<f64>(size, [0.0; 3], seed as u64);
+            check::<f64>(size, [5e5, 5.4e6, 100.0], seed as u64);
+            for [doubtful, sure] in [here, rounded] {
+                assert!(doubtful > 100 && sure > 100, "{size}: {here:?}, rounded {rounded:?}");
+            }
+        }
+        for size in [1e-5, 1e-6, 1e-7, 1e-8, 1e-9] {
+            check::<f64>(size, [0.0; 3], 9);
+        }
+    }
+}
