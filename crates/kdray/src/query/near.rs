@@ -1,7 +1,7 @@
 //! Rays that start where others hit.
 
 use super::{Arithmetic, Precision, Scene};
-use crate::geometry::{Coordinate, Ray};
+use crate::geometry::Ray;
 use crate::layout::Hint;
 use crate::primitives::Hit;
 use crate::traverse::wide::{Any, Located, Near, NoAim, search_along, search_near};
@@ -46,7 +46,8 @@ impl<T: Precision> Scene<T> {
     }
 }
 
-impl<T: Coordinate> Scene<T> {
+/// What [`Precision`] compiles.
+impl<T: Precision> Scene<T> {
     pub(super) fn find_closest_hit_with_hint(&self, ray: &Ray) -> Option<(Hit, Hint)> {
         let unhinted = || Some((self.trees.shapes.closest_hit(ray)?, Hint::NONE));
         let Some((tree, mesh)) = self.wide_and_mesh() else { return unhinted() };
@@ -80,9 +81,7 @@ impl<T: Coordinate> Scene<T> {
             Err(NoAim::OutOfRange) => self.trees.shapes.any_hit(ray),
         }
     }
-}
 
-impl<T: Precision> Scene<T> {
     pub(super) fn find_any_hits_near(&self, rays: &[Ray], hints: &[Hint], found: &mut [bool]) {
         let rays = rays.iter().zip(hints).map(|(ray, &hint)| Near(ray, hint));
         self.each_any(rays, |index, is_hit| found[index] = is_hit);

@@ -2,7 +2,9 @@
 
 use super::{Precision, Scene};
 use crate::geometry::RayPacket;
+use crate::layout::WideTree;
 use crate::primitives::{Hit, HitArrays};
+use crate::simd::InstructionSet;
 use crate::traverse::wide::packet::{Answers, PacketWork, Packets, Scratch};
 
 impl<T: Precision> Scene<T> {
@@ -61,13 +63,28 @@ impl<T: Precision> Scene<T> {
         answers: Answers<'_>,
         left: &mut Vec<u32>,
     ) -> PacketWork {
-        let Some(tree) = self.wide_tree().filter(|_| T::FITS_TREE) else {
-            left.extend(0..packet.len() as u32);
-            return PacketWork { left: packet.len(), ..PacketWork::default() };
-        };
-        Scratch::of_thread(|scratch| {
-            let kernel = Packets::<ANY> { tree, packet, answers, left, scratch };
-            self.instructions.run(kernel)
-        })
+        let tree = if T::FITS_TREE { self.wide_tree() } else { None };
+        match tree {
+            Some(tree) => in_packets::<ANY>(tree, self.instructions, packet, answers, left),
+            None => {
+                left.extend(0..packet.len() as u32);
+                PacketWork { left: packet.len(), ..PacketWork::default() }
+            }
+        }
     }
+}
+
+/// The same of a tree whose blocks hold the corners as they are in the mesh. Apart, so that it is compiled
+/// once.
+fn in_packets<const ANY: bool>(
+    tree: &WideTree,
+    instructions: InstructionSet,
+    packet: &RayPacket<'_>,
+    answers: Answers<'_>,
+    left: &mut Vec<u32>,
+) -> PacketWork {
+    Scratch::of_thread(|scratch| {
+        let kernel = Packets::<ANY> { tree, packet, answers, left, scratch };
+        instructions.run(kernel)
+    })
 }

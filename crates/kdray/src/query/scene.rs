@@ -2,7 +2,7 @@
 
 use super::{Arithmetic, Precision, ShapeScene};
 use crate::build::{BuildError, BuildOptions, BuildProgress};
-use crate::geometry::{Coordinate, Ray};
+use crate::geometry::Ray;
 use crate::layout::{TriangleBlock, WideTree};
 use crate::primitives::{Hit, TriangleMesh};
 use crate::simd::InstructionSet;
@@ -161,7 +161,8 @@ impl<T: Precision> Scene<T> {
     }
 }
 
-impl<T: Coordinate> Scene<T> {
+/// What [`Precision`] compiles.
+impl<T: Precision> Scene<T> {
     pub(super) fn of_mesh(
         mesh: TriangleMesh<T>,
         options: &BuildOptions,
