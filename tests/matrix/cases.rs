@@ -96,6 +96,56 @@ pub(crate) static TRIANGLES: LazyLock<Vec<Case<TriangleMesh, 3>>> = LazyLock::ne
     ]
 });
 
+/// Among them some that only f64 has: far from zero, very small and very large, and closer than f32 tells.
+pub(crate) static TRIANGLES_F64: LazyLock<Vec<Case<TriangleMesh<f64>, 3>>> = LazyLock::new(|| {
+    // A corner of a national grid, in metres.
+    const GRID: [f64; 3] = [500_000.0, 5_400_000.0, 100.0];
+    let soup = |seed| meshes::soup(120, [0.0; 3], 1.0, seed);
+    let case = |name, seed, soup: meshes::Soup<f64>| Case::new(name, seed, FAR, meshes::mesh(soup));
+    let placed = |seed, scale, center| meshes::placed(&soup(seed), scale, center);
+    vec![
+        case("soup", 51, meshes::in_f64(&soup(51))),
+        case("soup of scale 1e-290", 52, placed(52, 1e-290, [0.0; 3])),
+        case("soup of scale 1e-30", 53, placed(53, 1e-30, [0.0; 3])),
+        case("soup of scale 1e30", 54, placed(54, 1e30, [0.0; 3])),
+        case("soup of scale 1e290", 55, placed(55, 1e290, [0.0; 3])),
+        case("soup in a national grid", 56, placed(56, 1000.0, GRID)),
+        case("a centimetre of a national grid", 57, placed(57, 0.01, GRID)),
+        case("millimetres in kilometres", 58, specks(GRID)),
+        case("sheets closer than f32 tells", 59, sheets(1e-12)),
+        case("sheets in a national grid", 60, meshes::placed(&meshes::grid(5, 2), 0.001, GRID)),
+        case("axis-aligned boxes", 61, meshes::placed(&meshes::boxes(2), 0.1, GRID)),
+        case("needles", 62, meshes::in_f64(&meshes::needles(80, 62))),
+        case(
+            "degenerate and double triangles",
+            63,
+            meshes::placed(&meshes::degenerate(63), 1.0, GRID),
+        ),
+        Case::new("sphere", 64, FAR, meshes::mesh_in_f64(&meshes::sphere(7))),
+        case("one triangle", 65, meshes::placed(&meshes::soup(1, [0.0; 3], 1.0, 65), 1.0, GRID)),
+        case("identical triangles", 66, meshes::in_f64(&[meshes::grid(1, 1)[0]; 40].to_vec())),
+        case("nothing", 67, Vec::new()),
+    ]
+});
+
+/// Triangles of a millimetre, some kilometres apart.
+fn specks(center: [f64; 3]) -> meshes::Soup<f64> {
+    let places = meshes::soup(100, [0.0; 3], 1.0, 68);
+    let speck = |(triangle, place): ([[f32; 3]; 3], [[f32; 3]; 3])| {
+        let at = std::array::from_fn(|k| center[k] + 2000.0 * f64::from(place[0][k]));
+        meshes::placed(&vec![triangle], 0.001, at)
+    };
+    let triangles = meshes::soup(100, [0.0; 3], 1.0, 69);
+    triangles.into_iter().zip(places).flat_map(speck).collect()
+}
+
+/// Squares of coplanar triangles above each other, with so much between.
+fn sheets(distance: f64) -> meshes::Soup<f64> {
+    let mut sheets = meshes::in_f64(&meshes::grid(4, 4));
+    sheets.iter_mut().flatten().for_each(|corner| corner[2] = 1.0 + distance * corner[2]);
+    sheets
+}
+
 pub(crate) static SEGMENTS: LazyLock<Vec<Case<Segments, 2>>> = LazyLock::new(|| {
     let case = |name, seed, ends| {
         let segments = Segments::new(ends).expect("test segments are finite");

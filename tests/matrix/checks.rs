@@ -5,7 +5,7 @@ use kdray::geometry::BoundingSphere;
 use kdray::simd::UnknownInstructionSet;
 use kdray::traverse::Naive;
 use kdray::{
-    BuildOptions, CostModel, Hint, Hit, InstructionSet, KdTree, Ray, Scene, ShapeScene,
+    BuildOptions, CostModel, Hint, Hit, InstructionSet, KdTree, Precision, Ray, Scene, ShapeScene,
     TriangleMesh,
 };
 use kdray_tests::Subject;
@@ -34,11 +34,11 @@ pub(crate) fn on_each<S: Subject<K> + Clone + Send + Sync, const K: usize>(
 }
 
 /// The same for the kernels of an instruction set, if this processor has it.
-pub(crate) fn on_each_mesh(
+pub(crate) fn on_each_mesh<T: Precision>(
     options: &BuildOptions,
-    cases: &[Case<TriangleMesh, 3>],
+    cases: &[Case<TriangleMesh<T>, 3>],
     instructions: &str,
-    check: impl Fn(&Scene, &[&Aimed<3>]) -> Result<(), String> + Sync,
+    check: impl Fn(&Scene<T>, &[&Aimed<3>]) -> Result<(), String> + Sync,
 ) {
     for case in cases {
         let Some(scene) = scene_with(options, case, instructions) else { return };
@@ -54,11 +54,11 @@ pub(crate) fn on_each_mesh(
 
 /// The scene of a case, to be searched by the kernels of an instruction set; none if this processor
 /// does not have it.
-pub(crate) fn scene_with(
+pub(crate) fn scene_with<T: Precision>(
     options: &BuildOptions,
-    case: &Case<TriangleMesh, 3>,
+    case: &Case<TriangleMesh<T>, 3>,
     instructions: &str,
-) -> Option<Scene> {
+) -> Option<Scene<T>> {
     let instructions = match InstructionSet::of_name(instructions) {
         Ok(instructions) => instructions,
         Err(unknown) => {
@@ -177,7 +177,10 @@ pub(crate) fn count<S: Subject<K>, const K: usize>(
 
 /// The kernels' closest hits, the same as without a tree to the last bit: of one ray after the
 /// other, and of all in a batch.
-pub(crate) fn kernel_closest_hit(scene: &Scene, aimed: &[&Aimed<3>]) -> Result<(), String> {
+pub(crate) fn kernel_closest_hit<T: Precision>(
+    scene: &Scene<T>,
+    aimed: &[&Aimed<3>],
+) -> Result<(), String> {
     let rays: Vec<_> = aimed.iter().map(|aimed| aimed.ray).collect();
     let mut batch = vec![None; rays.len()];
     scene.closest_hits(&rays, &mut batch);
@@ -190,7 +193,10 @@ pub(crate) fn kernel_closest_hit(scene: &Scene, aimed: &[&Aimed<3>]) -> Result<(
 }
 
 /// Whether the kernels find anything, one ray after the other and all in a batch.
-pub(crate) fn kernel_any_hit(scene: &Scene, aimed: &[&Aimed<3>]) -> Result<(), String> {
+pub(crate) fn kernel_any_hit<T: Precision>(
+    scene: &Scene<T>,
+    aimed: &[&Aimed<3>],
+) -> Result<(), String> {
     let rays: Vec<_> = aimed.iter().map(|aimed| aimed.ray).collect();
     let mut batch = vec![false; rays.len()];
     scene.any_hits(&rays, &mut batch);
@@ -204,7 +210,10 @@ pub(crate) fn kernel_any_hit(scene: &Scene, aimed: &[&Aimed<3>]) -> Result<(), S
 
 /// Whether the kernels find anything if they begin at hints: of the ray's own hit, of another's, and
 /// any numbers; for the rays, and for rays of any length off their hits.
-pub(crate) fn kernel_any_hit_near(scene: &Scene, aimed: &[&Aimed<3>]) -> Result<(), String> {
+pub(crate) fn kernel_any_hit_near<T: Precision>(
+    scene: &Scene<T>,
+    aimed: &[&Aimed<3>],
+) -> Result<(), String> {
     let mut random = random(aimed.len() as u64);
     let (mut rays, mut hints, mut naive) = (Vec::new(), Vec::new(), Vec::new());
     let mut add = |ray: Ray, hint: Hint, is_hit: bool| {

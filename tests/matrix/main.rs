@@ -1,6 +1,7 @@
 //! Every strategy, kind of primitive and query, against the answer of testing every primitive and
-//! against rational arithmetic. A test's name says which: `sah::triangles::closest_hit`; those of
-//! the kernels name their instruction set: `sah::kernels::avx2::closest_hit`, those of their packets
+//! against rational arithmetic. A test's name says which: `sah::triangles::closest_hit`, of vertices in f64
+//! `sah::triangles_f64::closest_hit`; those of the kernels name their instruction set:
+//! `sah::kernels::avx2::closest_hit` and `sah::kernels_f64::avx2::closest_hit`, those of their packets
 //! too: `sah::kernels::avx2::packets_closest_hit`; and those of the packets that can be watched, on the
 //! canonical tree, their kind: `sah::packets::frustum::triangles`.
 
@@ -9,7 +10,7 @@ mod checks;
 mod packets;
 mod ray_packets;
 
-use cases::{BALLS_2D, BALLS_3D, SEGMENTS, TRIANGLES};
+use cases::{BALLS_2D, BALLS_3D, SEGMENTS, TRIANGLES, TRIANGLES_F64};
 use checks::{all_hits, all_touched, any_hit, closest_hit, count};
 use checks::{kernel_any_hit, kernel_any_hit_near, kernel_closest_hit};
 use kdray::build::SahBuilder;
@@ -37,9 +38,10 @@ macro_rules! queries {
 }
 
 macro_rules! kernels {
-    ($($instructions:ident)*) => {
-        mod kernels {
+    ($kind:ident, $cases:ident, $packets:ident, $($instructions:ident)*) => {
+        mod $kind {
             use super::*;
+            use crate::ray_packets::$packets;
 
             $(
                 mod $instructions {
@@ -48,38 +50,38 @@ macro_rules! kernels {
                     #[test]
                     fn closest_hit() {
                         let set = stringify!($instructions);
-                        checks::on_each_mesh(&options(), &TRIANGLES, set, kernel_closest_hit);
+                        checks::on_each_mesh(&options(), &$cases, set, kernel_closest_hit);
                     }
 
                     #[test]
                     fn any_hit() {
                         let set = stringify!($instructions);
-                        checks::on_each_mesh(&options(), &TRIANGLES, set, kernel_any_hit);
+                        checks::on_each_mesh(&options(), &$cases, set, kernel_any_hit);
                     }
 
                     #[test]
                     fn any_hit_near() {
                         let set = stringify!($instructions);
-                        checks::on_each_mesh(&options(), &TRIANGLES, set, kernel_any_hit_near);
+                        checks::on_each_mesh(&options(), &$cases, set, kernel_any_hit_near);
                     }
 
                     #[test]
                     fn packets_closest_hit() {
                         let set = stringify!($instructions);
-                        ray_packets::on_each(&options(), set, ray_packets::closest_hit);
+                        ray_packets::on_each(&options(), (&$cases, &$packets), set, ray_packets::closest_hit);
                     }
 
                     #[test]
                     fn packets_any_hit() {
                         let set = stringify!($instructions);
-                        ray_packets::on_each(&options(), set, ray_packets::any_hit);
+                        ray_packets::on_each(&options(), (&$cases, &$packets), set, ray_packets::any_hit);
                     }
 
                     #[test]
                     fn packets_in_float() {
                         let set = stringify!($instructions);
-                        ray_packets::on_each(&options(), set, ray_packets::float);
-                        ray_packets::nearly_all_in_float(&options(), set);
+                        ray_packets::on_each(&options(), (&$cases, &$packets), set, ray_packets::float);
+                        ray_packets::nearly_all_in_float(&options(), &$cases, set);
                     }
                 }
             )*
@@ -124,7 +126,9 @@ macro_rules! builder {
             queries!(segments, SEGMENTS, closest_hit any_hit all_hits all_touched count);
             queries!(balls_2d, BALLS_2D, closest_hit any_hit all_hits all_touched count);
             queries!(balls_3d, BALLS_3D, closest_hit any_hit all_hits all_touched count);
-            kernels!(portable neon avx2 avx512);
+            queries!(triangles_f64, TRIANGLES_F64, closest_hit any_hit all_hits all_touched count);
+            kernels!(kernels, TRIANGLES, PACKETS, portable neon avx2 avx512);
+            kernels!(kernels_f64, TRIANGLES_F64, PACKETS_F64, portable neon avx2 avx512);
             packets!(masked = Masked interval = Interval frustum = Frustum);
         }
     };

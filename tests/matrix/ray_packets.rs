@@ -1,11 +1,13 @@
 //! The packets of the kernels: packets that are hard on purpose, and the answers to their rays, to the
 //! last bit those of testing every triangle.
 
-use crate::cases::{Case, FAR, TRIANGLES};
+use crate::cases::{Case, FAR, TRIANGLES, TRIANGLES_F64};
 use crate::checks::scene_with;
 use kdray::geometry::Common;
 use kdray::primitives::HitArrays;
-use kdray::{Arithmetic, BuildOptions, Hit, Interval, Ray, Scene, ShapeScene, Side, TriangleMesh};
+use kdray::{
+    Arithmetic, BuildOptions, Hit, Interval, Precision, Ray, Scene, ShapeScene, Side, TriangleMesh,
+};
 use kdray_tests::rays::random;
 use kdray_tests::{OwnedPacket, Packer};
 use rand::RngExt;
@@ -27,17 +29,24 @@ pub(crate) struct Asked {
 }
 
 /// For each case of [`TRIANGLES`] its packets.
-static PACKETS: LazyLock<Vec<Vec<Asked>>> = LazyLock::new(|| {
-    let made = |case: &Case<TriangleMesh, 3>| {
+pub(crate) static PACKETS: LazyLock<Vec<Vec<Asked>>> = LazyLock::new(|| made(&TRIANGLES, EACH));
+
+/// For each case of [`TRIANGLES_F64`] its packets.
+pub(crate) static PACKETS_F64: LazyLock<Vec<Vec<Asked>>> =
+    LazyLock::new(|| made(&TRIANGLES_F64, 1));
+
+/// Packets at each case, `each` of every kind and size.
+fn made<T: Precision>(cases: &[Case<TriangleMesh<T>, 3>], each: usize) -> Vec<Vec<Asked>> {
+    let made = |case: &Case<TriangleMesh<T>, 3>| {
         let rays: Vec<Ray> = case.aimed.iter().map(|aimed| aimed.ray).collect();
-        let packets = Packer::new(&case.subject, &rays, case.seed).all_kinds(EACH, FAR);
+        let packets = Packer::new(&case.subject, &rays, case.seed).all_kinds(each, FAR);
         asked(&case.subject, packets, case.seed)
     };
-    TRIANGLES.iter().map(made).collect()
-});
+    cases.iter().map(made).collect()
+}
 
 /// Packets as they are, and with other intervals.
-fn asked(mesh: &TriangleMesh, packets: Vec<OwnedPacket>, seed: u64) -> Vec<Asked> {
+fn asked<T: Precision>(mesh: &TriangleMesh<T>, packets: Vec<OwnedPacket>, seed: u64) -> Vec<Asked> {
     let one_leaf = BuildOptions { leaf_size: usize::MAX, ..BuildOptions::default() };
     let shapes = ShapeScene::build(mesh.clone(), &one_leaf).expect("cases are valid");
     let variants = |(index, packet): (usize, OwnedPacket)| {
@@ -56,7 +65,10 @@ fn asked(mesh: &TriangleMesh, packets: Vec<OwnedPacket>, seed: u64) -> Vec<Asked
 }
 
 /// Where the line of each ray meets a triangle: the first hit before its origin or, of others, behind.
-fn ts_of_hits(shapes: &ShapeScene, packet: &OwnedPacket) -> Vec<Option<f64>> {
+fn ts_of_hits<T: Precision>(
+    shapes: &ShapeScene<TriangleMesh<T>>,
+    packet: &OwnedPacket,
+) -> Vec<Option<f64>> {
     let first = |ray: &Ray| {
         let ahead = shapes.naive().closest_hit(ray);
         let line = Ray { interval: Interval::LINE, ..*ray };
@@ -113,12 +125,17 @@ const INTERVALS: [Interval; 14] = {
 };
 
 /// What is compared of a packet's answers: this is told of the first that is wrong.
-pub(crate) type Check = fn(&Scene, &Asked, &mut HitArrays) -> Result<(), String>;
+pub(crate) type Check<T> = fn(&Scene<T>, &Asked, &mut HitArrays) -> Result<(), String>;
 
 /// Builds a tree over each case and checks the answers to its packets, and to packets in the tree's
 /// split planes, by the kernels of an instruction set, if this processor has it.
-pub(crate) fn on_each(options: &BuildOptions, instructions: &str, check: Check) {
-    for (case, packets) in TRIANGLES.iter().zip(PACKETS.iter()) {
+pub(crate) fn on_each<T: Precision>(
+    options: &BuildOptions,
+    (cases, packets): (&[Case<TriangleMesh<T>, 3>], &[Vec<Asked>]),
+    instructions: &str,
+    check: Check<T>,
+) {
+    for (case, packets) in cases.iter().zip(packets) {
         let Some(scene) = scene_with(options, case, instructions) else { return };
         let rays: Vec<Ray> = case.aimed.iter().map(|aimed| aimed.ray).collect();
         let mut packer = Packer::new(&case.subject, &rays, case.seed + 1);
@@ -138,8 +155,8 @@ pub(crate) fn on_each(options: &BuildOptions, instructions: &str, check: Check) 
 }
 
 /// The closest hits of a packet's rays, and of each ray alone.
-pub(crate) fn closest_hit(
-    scene: &Scene,
+pub(crate) fn closest_hit<T: Precision>(
+    scene: &Scene<T>,
     asked: &Asked,
     hits: &mut HitArrays,
 ) -> Result<(), String> {
@@ -155,7 +172,11 @@ pub(crate) fn closest_hit(
 }
 
 /// Whether a packet's rays hit anything.
-pub(crate) fn any_hit(scene: &Scene, asked: &Asked, _: &mut HitArrays) -> Result<(), String> {
+pub(crate) fn any_hit<T: Precision>(
+    scene: &Scene<T>,
+    asked: &Asked,
+    _: &mut HitArrays,
+) -> Result<(), String> {
     let packet = asked.packet.packet();
     // What was there before must not matter.
     let mut found: Vec<bool> = (0..packet.len()).map(|index| index % 2 == 0).collect();
@@ -169,7 +190,11 @@ pub(crate) fn any_hit(scene: &Scene, asked: &Asked, _: &mut HitArrays) -> Result
 
 /// Answers in float arithmetic to all packets: which they are is checked elsewhere, but that the ids
 /// are of triangles, and t within the interval or close to its ends.
-pub(crate) fn float(scene: &Scene, asked: &Asked, hits: &mut HitArrays) -> Result<(), String> {
+pub(crate) fn float<T: Precision>(
+    scene: &Scene<T>,
+    asked: &Asked,
+    hits: &mut HitArrays,
+) -> Result<(), String> {
     let scene = scene.clone().with_arithmetic(Arithmetic::Float);
     let packet = asked.packet.packet();
     scene.packet_closest_hits(&packet, hits);
@@ -184,11 +209,15 @@ pub(crate) fn float(scene: &Scene, asked: &Asked, hits: &mut HitArrays) -> Resul
 }
 
 /// In float arithmetic nearly all random rays hit or miss as they do exactly.
-pub(crate) fn nearly_all_in_float(options: &BuildOptions, instructions: &str) {
+pub(crate) fn nearly_all_in_float<T: Precision>(
+    options: &BuildOptions,
+    cases: &[Case<TriangleMesh<T>, 3>],
+    instructions: &str,
+) {
     // Single rays are not accurate either where coordinates are far larger than triangles.
-    let is_far = |case: &Case<TriangleMesh, 3>| case.name == "far soup";
-    let is_empty = |case: &Case<TriangleMesh, 3>| case.subject.triangles().is_empty();
-    for case in TRIANGLES.iter().filter(|case| !is_far(case) && !is_empty(case)) {
+    let is_far = |case: &Case<TriangleMesh<T>, 3>| case.name == "far soup";
+    let is_empty = |case: &Case<TriangleMesh<T>, 3>| case.subject.triangles().is_empty();
+    for case in cases.iter().filter(|case| !is_far(case) && !is_empty(case)) {
         let Some(exact) = scene_with(options, case, instructions) else { return };
         let float = exact.clone().with_arithmetic(Arithmetic::Float);
         let mut packer = Packer::new(&case.subject, &[], case.seed + 2);

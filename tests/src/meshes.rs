@@ -1,19 +1,49 @@
 //! Meshes made in code: closed ones, and soups that are hard on purpose.
 
 use crate::rays::random;
-use kdray::TriangleMesh;
+use kdray::{Coordinate, TriangleMesh};
 use rand::RngExt;
 use std::f64::consts::{PI, TAU};
 
 /// Three corners a triangle, as [`TriangleMesh::from_soup`] takes them.
-pub type Soup = Vec<[[f32; 3]; 3]>;
+pub type Soup<T = f32> = Vec<[[T; 3]; 3]>;
 
 /// A mesh of triangles that share no vertices.
 ///
 /// # Panics
 /// If a coordinate is not finite.
-pub fn mesh(soup: Soup) -> TriangleMesh {
+pub fn mesh<T: Coordinate>(soup: Soup<T>) -> TriangleMesh<T> {
     TriangleMesh::from_soup(soup).expect("test meshes are finite")
+}
+
+/// The same triangles in f64.
+pub fn in_f64(soup: &Soup) -> Soup<f64> {
+    soup.iter().map(|triangle| triangle.map(|p| p.map(f64::from))).collect()
+}
+
+/// The same mesh in f64, of the same vertices and triangles.
+///
+/// # Panics
+/// Never: what was a mesh is one.
+pub fn mesh_in_f64(mesh: &TriangleMesh) -> TriangleMesh<f64> {
+    let vertices = mesh.vertices().iter().map(|p| p.map(f64::from)).collect();
+    TriangleMesh::new(vertices, mesh.triangles().to_vec()).expect("it was a mesh before")
+}
+
+/// Triangles scaled and moved to another place, so that they need f64; of coordinates so short that
+/// differences between them are not rounded.
+pub fn placed(soup: &Soup, scale: f64, center: [f64; 3]) -> Soup<f64> {
+    let largest = center.iter().fold(4.0 * scale, |most, x| x.abs().max(most));
+    let place = |p: [f32; 3]| {
+        std::array::from_fn(|k| snapped(f64::from(p[k]) * scale + center[k], largest))
+    };
+    soup.iter().map(|triangle| triangle.map(place)).collect()
+}
+
+/// The multiple next to x of 2^-40 of the power of two below `largest`.
+pub fn snapped(x: f64, largest: f64) -> f64 {
+    let step = f64::from_bits(largest.to_bits() & (0x7ff << 52)) / (1_u64 << 40) as f64;
+    if step > 0.0 { (x / step).round() * step } else { x }
 }
 
 /// Triangles of about a fifth of `scale`, their corners within `scale` of `center`.

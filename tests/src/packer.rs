@@ -1,9 +1,9 @@
 //! Packets of rays that are hard on purpose. All are seeded: the same on every run.
 
 use crate::owned_packet::OwnedPacket;
-use crate::rays::{Archer, random, rounded, splits};
+use crate::rays::{Archer, random};
 use kdray::geometry::{Common, tile_order};
-use kdray::{KdTree, Ray, TriangleMesh};
+use kdray::{Coordinate, KdTree, Ray, TriangleMesh};
 use rand::RngExt;
 use rand::seq::IndexedRandom;
 use rand_pcg::Pcg64Mcg;
@@ -16,15 +16,15 @@ const COUNTS: [usize; 8] = [1, 3, 8, 64, 255, 256, 257, 1000];
 ///
 /// A packet is a place and points: the rays go from the place through the points, or from the points to
 /// the place, or through the points in the direction of the place.
-pub struct Packer<'a> {
-    archer: Archer<'a, TriangleMesh, 3>,
+pub struct Packer<'a, T = f32> {
+    archer: Archer<'a, TriangleMesh<T>, 3>,
     aimed: &'a [Ray],
     random: Pcg64Mcg,
 }
 
-impl<'a> Packer<'a> {
+impl<'a, T: Coordinate> Packer<'a, T> {
     /// Packets at `mesh`, which some rays were aimed at.
-    pub fn new(mesh: &'a TriangleMesh, aimed: &'a [Ray], seed: u64) -> Self {
+    pub fn new(mesh: &'a TriangleMesh<T>, aimed: &'a [Ray], seed: u64) -> Self {
         Self { archer: Archer::new(mesh, seed), aimed, random: random(seed) }
     }
 
@@ -63,7 +63,7 @@ impl<'a> Packer<'a> {
 
     /// Packets with rays in the split planes of `tree`, and in two or more of them at once.
     pub fn in_split_planes(&mut self, tree: &KdTree<3>, count: usize) -> Vec<OwnedPacket> {
-        let splits = splits(tree);
+        let splits = self.archer.splits(tree);
         if splits.is_empty() {
             return Vec::new();
         }
@@ -111,10 +111,10 @@ impl<'a> Packer<'a> {
             0 => self.archer.corner(),
             1 => self.edge_middle(),
             2 => self.in_a_plane(),
-            3 => self.archer.around(0.0).map(rounded),
+            3 => self.archer.around(0.0).map(|x| self.archer.rounded(x)),
             4 => self.archer.point_afar(farthest),
             5 => self.aimed.choose(&mut self.random).map_or([0.0; 3], |ray| ray.origin),
-            _ => self.archer.around(1.0).map(rounded),
+            _ => self.archer.around(1.0).map(|x| self.archer.rounded(x)),
         }
     }
 

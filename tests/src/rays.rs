@@ -1,7 +1,7 @@
 //! Rays that are hard on purpose. All are seeded: the same on every run.
 
 use crate::Subject;
-use kdray::{Aabb, Interval, KdTree, Ray, tree::NodeKind};
+use kdray::{Interval, KdTree, Ray, tree::NodeKind};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
@@ -13,21 +13,22 @@ pub fn random(seed: u64) -> Pcg64Mcg {
 /// Makes rays at the primitives of one case.
 pub struct Archer<'a, S, const K: usize> {
     subject: &'a S,
-    bounds: Aabb<K>,
+    /// The least and the greatest coordinate on each axis.
+    min: [f64; K],
+    max: [f64; K],
     random: Pcg64Mcg,
 }
 
 impl<'a, S: Subject<K>, const K: usize> Archer<'a, S, K> {
     /// Rays at `subject`.
     pub fn new(subject: &'a S, seed: u64) -> Self {
-        let ids = 0..subject.count() as u32;
-        let bounds = ids.fold(Aabb::EMPTY, |bounds, id| bounds.union(&subject.bounds(id)));
-        Self { subject, bounds, random: random(seed) }
+        let (min, max) = subject.extent();
+        Self { subject, min, max, random: random(seed) }
     }
 
     /// Whether there is nothing to aim at.
     pub(crate) fn is_at_nothing(&self) -> bool {
-        self.bounds.is_empty()
+        self.min[0] > self.max[0]
     }
 
     /// Rays of every kind, about `each` of a kind. Origins are up to `farthest` diagonals away.
@@ -78,13 +79,13 @@ impl<'a, S: Subject<K>, const K: usize> Archer<'a, S, K> {
     /// Through a corner; exactly so, for the origin is an f32 of about the same size, so that the
     /// direction is an f64 without rounding.
     fn at_a_vertex(&mut self) -> Ray<K> {
-        let from = self.around(1.0).map(rounded);
+        let from = self.around(1.0).map(|x| self.rounded(x));
         Ray::through(from, self.corner())
     }
 
     /// Through the middle between two corners.
     fn at_an_edge(&mut self) -> Ray<K> {
-        let from = self.around(1.0).map(rounded);
+        let from = self.around(1.0).map(|x| self.rounded(x));
         let (a, b) = self.edge();
         Ray::through(from, std::array::from_fn(|k| 0.5 * (a[k] + b[k])))
     }
@@ -139,7 +140,7 @@ impl<'a, S: Subject<K>, const K: usize> Archer<'a, S, K> {
 
     /// Rays in the split planes of `tree`, and in two or more of them at once.
     pub fn in_split_planes(&mut self, tree: &KdTree<K>, count: usize) -> Vec<Ray<K>> {
-        let splits = splits(tree);
+        let splits = self.splits(tree);
         if splits.is_empty() {
             return Vec::new();
         }
@@ -158,10 +159,9 @@ impl<'a, S: Subject<K>, const K: usize> Archer<'a, S, K> {
 
     /// A point in the box of all primitives, grown on each side by `margin` diagonals.
     pub(crate) fn around(&mut self, margin: f64) -> [f64; K] {
-        let margin = margin * self.bounds.diagonal();
+        let margin = margin * self.diagonal();
         std::array::from_fn(|k| {
-            let (min, max) = (f64::from(self.bounds.min[k]), f64::from(self.bounds.max[k]));
-            self.random.random_range(min - margin..=max + margin)
+            self.random.random_range(self.min[k] - margin..=self.max[k] + margin)
         })
     }
 
@@ -171,8 +171,28 @@ impl<'a, S: Subject<K>, const K: usize> Archer<'a, S, K> {
 
     /// The diagonal; the distance from zero if the box is a point.
     pub(crate) fn size(&self) -> f64 {
-        let largest = self.bounds.max.iter().fold(f32::MIN_POSITIVE, |m, x| m.max(x.abs()));
-        if self.bounds.diagonal() > 0.0 { self.bounds.diagonal() } else { f64::from(largest) }
+        let least = f64::from(f32::MIN_POSITIVE);
+        let largest = self.max.iter().fold(least, |m, x| m.max(x.abs()));
+        if self.diagonal() > 0.0 { self.diagonal() } else { largest }
+    }
+
+    /// The diagonal of the box around all primitives.
+    fn diagonal(&self) -> f64 {
+        (0..K).fold(0.0, |length, k| f64::hypot(length, self.max[k] - self.min[k]))
+    }
+
+    /// A number next to x that has few digits: see [`Subject::rounded`].
+    pub(crate) fn rounded(&self, x: f64) -> f64 {
+        self.subject.rounded(x)
+    }
+
+    /// The split planes of a tree: their axes and places.
+    pub(crate) fn splits(&self, tree: &KdTree<K>) -> Vec<(usize, f64)> {
+        let split = |kind: NodeKind| match kind {
+            NodeKind::Inner { axis, split, .. } => Some((axis, self.subject.plane(axis, split))),
+            NodeKind::Leaf { .. } => None,
+        };
+        tree.nodes().iter().filter_map(|node| split(node.kind())).collect()
     }
 
     pub(crate) fn corners(&mut self) -> Vec<[f64; K]> {
@@ -190,18 +210,4 @@ impl<'a, S: Subject<K>, const K: usize> Archer<'a, S, K> {
         let first = self.random.random_range(0..corners.len());
         (corners[first], corners[(first + 1) % corners.len()])
     }
-}
-
-/// The nearest finite f32.
-pub(crate) fn rounded(x: f64) -> f64 {
-    f64::from(x.clamp(f32::MIN.into(), f32::MAX.into()) as f32)
-}
-
-/// The split planes of a tree: their axes and places.
-pub(crate) fn splits<const K: usize>(tree: &KdTree<K>) -> Vec<(usize, f64)> {
-    let split = |kind: NodeKind| match kind {
-        NodeKind::Inner { axis, split, .. } => Some((axis, f64::from(split))),
-        NodeKind::Leaf { .. } => None,
-    };
-    tree.nodes().iter().filter_map(|node| split(node.kind())).collect()
 }

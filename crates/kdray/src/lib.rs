@@ -22,11 +22,11 @@ pub mod tree;
 
 pub use build::{BuildError, BuildOptions, BuildProgress, CostModel, Preset, Strategy};
 pub use file::FileError;
-pub use geometry::{Aabb, Interval, Ray, RayError, RayPacket};
+pub use geometry::{Aabb, Coordinate, Interval, Ray, RayError, RayPacket};
 pub use layout::Hint;
 pub use primitives::{ClosestPoint, Closure, Hit, MeshError, Side, TriangleMesh};
 pub use query::{Arithmetic, Instance, InstanceHit, InstancedScene};
-pub use query::{PacketWork, Scene, ShapeScene};
+pub use query::{PacketWork, Precision, Scene, ShapeScene};
 pub use simd::InstructionSet;
 pub use tree::{KdTree, TreeStats};
 

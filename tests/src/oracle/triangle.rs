@@ -1,17 +1,17 @@
 //! A line and a triangle in space.
 
 use super::{ExactHit, Terms, decide, integers, ratio, share, side_of, surely_missed};
-use kdray::Ray;
 use kdray::primitives::HitRule;
+use kdray::{Coordinate, Ray};
 
 /// Where the line of `ray` hits the triangle by `rule`, whatever the ray's interval.
-pub fn exact_triangle_hit(
-    corners: &[[f32; 3]; 3],
+pub fn exact_triangle_hit<T: Coordinate>(
+    corners: &[[T; 3]; 3],
     id: u32,
     ray: &Ray<3>,
     rule: HitRule,
 ) -> Option<ExactHit> {
-    let corners = corners.map(|p| p.map(f64::from));
+    let corners = corners.map(|p| p.map(T::to_f64));
     if surely_missed(&corners, ray) {
         return None;
     }

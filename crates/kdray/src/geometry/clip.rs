@@ -1,6 +1,7 @@
 //! The bounds of a convex polygon's part inside a box ("perfect splits", Havran 2000, §4.3).
 
-use super::Aabb;
+use super::coordinate::{round_down, round_up};
+use super::{Aabb, Coordinate};
 use arrayvec::ArrayVec;
 
 /// Room for a polygon cut by the 2·K planes of a cell, each of which adds one vertex at most.
@@ -13,7 +14,8 @@ type Polygon<const K: usize> = ArrayVec<Vertex<K>, MOST_VERTICES>;
 #[derive(Clone, Copy)]
 struct Vertex<const K: usize> {
     position: [f64; K],
-    /// How far a coordinate may be from the true one: zero for the polygon's own vertices.
+    /// How far a coordinate may be from the true one: for the polygon's own vertices as the caller says,
+    /// which is zero for f32.
     error: f64,
 }
 
@@ -29,18 +31,35 @@ struct Vertex<const K: usize> {
 /// # Panics
 /// If the polygon has more than 12 − 2·K vertices: 8 in the plane, 6 in space.
 pub fn clipped_bounds<const K: usize>(polygon: &[[f32; K]], cell: &Aabb<K>) -> Option<Aabb<K>> {
+    clipped_bounds_of(polygon, 0.0, cell)
+}
+
+/// [`clipped_bounds`] of a polygon whose coordinates may be off by `error`, and so may the points that
+/// are looked for: the box holds each point of the cell that is so near the polygon. Zero for f32.
+pub(crate) fn clipped_bounds_of<T: Coordinate, const K: usize>(
+    polygon: &[[T; K]],
+    error: f64,
+    cell: &Aabb<K>,
+) -> Option<Aabb<K>> {
     assert!(polygon.len() + 2 * K <= MOST_VERTICES, "a polygon of {} vertices", polygon.len());
-    let whole = Aabb::of_points(polygon.iter().copied());
+    let whole = bounds_of(polygon, error);
     let limit = whole.intersection(cell);
     if limit.is_empty() || limit == whole {
         return (!limit.is_empty()).then_some(limit);
     }
-    let pad = pad(&whole, cell);
+    let pad = pad(&whole, cell, error);
     let mut buffers: [Polygon<K>; 2] = [Polygon::new(), Polygon::new()];
-    let part = clipped(polygon, &whole, cell, pad, &mut buffers);
+    let part = clipped((polygon, error), &whole, cell, pad, &mut buffers);
     let bounds = part.iter().fold(Aabb::EMPTY, |bounds, v| bounds.union(&outward(v)));
     let bounds = bounds.intersection(&limit);
     (!bounds.is_empty()).then_some(bounds)
+}
+
+/// The box around all points that are so near the polygon.
+pub(crate) fn bounds_of<T: Coordinate, const K: usize>(polygon: &[[T; K]], error: f64) -> Aabb<K> {
+    let around =
+        |p: &[T; K]| Aabb { min: p.map(|x| x.below(error)), max: p.map(|x| x.above(error)) };
+    polygon.iter().fold(Aabb::EMPTY, |bounds, p| bounds.union(&around(p)))
 }
 
 /// The smallest boxes, rounded outward, of the parts of a convex polygon (or segment) that lie in
@@ -57,14 +76,26 @@ pub fn split_bounds<const K: usize>(
     axis: usize,
     position: f32,
 ) -> [Option<Aabb<K>>; 2] {
+    split_bounds_of(polygon, 0.0, cell, axis, position)
+}
+
+/// [`split_bounds`] of a polygon whose coordinates may be off by `error`: see [`clipped_bounds_of`].
+pub(crate) fn split_bounds_of<T: Coordinate, const K: usize>(
+    polygon: &[[T; K]],
+    error: f64,
+    cell: &Aabb<K>,
+    axis: usize,
+    position: f32,
+) -> [Option<Aabb<K>>; 2] {
     assert!(polygon.len() + 2 * K <= MOST_VERTICES, "a polygon of {} vertices", polygon.len());
-    let whole = Aabb::of_points(polygon.iter().copied());
-    let pad = pad(&whole, cell);
-    let parts = if whole.intersection(cell) == whole {
+    let whole = bounds_of(polygon, error);
+    let pad = pad(&whole, cell, error);
+    let parts = if T::FITS_TREE && whole.intersection(cell) == whole {
         split_whole(polygon, axis, position, pad)
     } else {
         let mut buffers: [Polygon<K>; 2] = [Polygon::new(), Polygon::new()];
-        split_part(clipped(polygon, &whole, cell, pad, &mut buffers), axis, position, pad)
+        let part = clipped((polygon, error), &whole, cell, pad, &mut buffers);
+        split_part(part, axis, position, pad)
     };
     let (below, above) = cell.split(axis, position);
     let within = |part: Aabb<K>, half: &Aabb<K>| {
@@ -79,8 +110,8 @@ pub fn split_bounds<const K: usize>(
 /// Its vertices are exact, and so are the signs of their distances from the plane; a crossing of an
 /// edge errs by far less than the pad.
 #[inline]
-fn split_whole<const K: usize>(
-    polygon: &[[f32; K]],
+fn split_whole<T: Coordinate, const K: usize>(
+    polygon: &[[T; K]],
     axis: usize,
     position: f32,
     pad: f64,
@@ -88,6 +119,7 @@ fn split_whole<const K: usize>(
     let [mut below, mut above] = [Aabb::EMPTY; 2];
     let mut crossings = Extent::NONE;
     let plane = f64::from(position);
+    let position = T::from_f32(position);
     let Some(mut from) = polygon.last() else { return [below, above] };
     for to in polygon {
         if to[axis] <= position {
@@ -99,7 +131,7 @@ fn split_whole<const K: usize>(
         let is_crossing = from[axis] < position && to[axis] > position
             || from[axis] > position && to[axis] < position;
         if is_crossing {
-            let (p, q) = (from.map(f64::from), to.map(f64::from));
+            let (p, q) = (from.map(T::to_f64), to.map(T::to_f64));
             let share = (plane - p[axis]) / (q[axis] - p[axis]);
             let mut crossing: [f64; K] = std::array::from_fn(|k| p[k] + share * (q[k] - p[k]));
             crossing[axis] = plane;
@@ -114,7 +146,8 @@ fn split_whole<const K: usize>(
 /// The bounds of the parts below and above a plane of what is left of a polygon.
 ///
 /// No true point is left out, for the reason given at [`clipped_bounds`]: each part is cut at the
-/// plane moved outward by the pad. A vertex of the polygon so far errs by less than 2^-8 of the pad.
+/// plane moved outward by the pad. A vertex of the polygon so far errs by less than 2^-8 of the pad, besides
+/// the error that the caller told of.
 /// So one that truly lies on a part's side is kept; and on an edge that leaves the part, the computed
 /// crossing with the moved plane lies beyond the true crossing with the plane itself.
 #[inline]
@@ -132,8 +165,9 @@ fn split_part<const K: usize>(
 
 /// Makes `bounds` hold a point, too.
 #[inline]
-fn include<const K: usize>(bounds: &mut Aabb<K>, point: &[f32; K]) {
+fn include<T: Coordinate, const K: usize>(bounds: &mut Aabb<K>, point: &[T; K]) {
     for ((min, max), &x) in bounds.min.iter_mut().zip(&mut bounds.max).zip(point) {
+        let x = x.below(0.0);
         *min = if x < *min { x } else { *min };
         *max = if x > *max { x } else { *max };
     }
@@ -164,8 +198,8 @@ impl<const K: usize> Extent<K> {
 }
 
 /// The part of `polygon`, which `whole` bounds, that lies in `cell`, up to the pad.
-fn clipped<'a, const K: usize>(
-    polygon: &[[f32; K]],
+fn clipped<'a, T: Coordinate, const K: usize>(
+    (polygon, error): (&[[T; K]], f64),
     whole: &Aabb<K>,
     cell: &Aabb<K>,
     pad: f64,
@@ -173,7 +207,7 @@ fn clipped<'a, const K: usize>(
 ) -> &'a Polygon<K> {
     // Each cut reads one of the buffers and writes the other.
     let [mut part, mut next] = buffers.each_mut();
-    part.extend(polygon.iter().map(|&p| Vertex { position: p.map(f64::from), error: 0.0 }));
+    part.extend(polygon.iter().map(|&p| Vertex { position: p.map(T::to_f64), error }));
     for axis in 0..K {
         if whole.min[axis] < cell.min[axis] {
             let plane = f64::from(cell.min[axis]) - pad;
@@ -189,15 +223,16 @@ fn clipped<'a, const K: usize>(
     part
 }
 
-/// 2^-40 of the largest coordinate: cutting six times in f64 errs by less than 2^-48 of it.
-fn pad<const K: usize>(whole: &Aabb<K>, cell: &Aabb<K>) -> f64 {
+/// 2^-40 of the largest coordinate: cutting six times in f64 errs by less than 2^-48 of it. And twice what
+/// the polygon's vertices err by, so that half of the pad is for cutting.
+fn pad<const K: usize>(whole: &Aabb<K>, cell: &Aabb<K>, error: f64) -> f64 {
     let mut largest = 0.0_f32;
     for axis in 0..K {
         let of_whole = whole.min[axis].abs().max(whole.max[axis].abs());
         let of_cell = cell.min[axis].abs().max(cell.max[axis].abs());
         largest = largest.max(of_whole.max(of_cell));
     }
-    f64::from(largest) * (1.0 / (1u64 << 40) as f64)
+    f64::from(largest) * (1.0 / (1u64 << 40) as f64) + 2.0 * error
 }
 
 /// A half-space: where `side · position[axis] ≥ side · plane`.
@@ -275,16 +310,6 @@ fn outward<const K: usize>(vertex: &Vertex<K>) -> Aabb<K> {
     }
 }
 
-fn round_down(x: f64) -> f32 {
-    let nearest = x as f32;
-    if f64::from(nearest) > x { nearest.next_down() } else { nearest }
-}
-
-fn round_up(x: f64) -> f32 {
-    let nearest = x as f32;
-    if f64::from(nearest) < x { nearest.next_up() } else { nearest }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -347,6 +372,42 @@ mod tests {
                     prop_assert!((0..3).all(|k| near(found.min[k], apart.min[k])));
                     prop_assert!((0..3).all(|k| near(found.max[k], apart.max[k])));
                 }
+            }
+        }
+    }
+
+    proptest! {
+        /// A point of the cell that is as near as the error to the triangle is in the bounds, and in those
+        /// of the half that it lies in.
+        #[test]
+        fn what_is_near_is_within(
+            corners in prop::array::uniform3(prop::array::uniform3(-2.0..2.0_f64)),
+            off in prop::array::uniform3(-1.0..1.0_f64),
+            error in prop::sample::select(vec![1e-14, 1e-9, 1e-3]),
+            axis in 0_usize..3,
+            position in -0.9_f32..0.9,
+            (u, v, flat) in (0.0..1.0, 0.0..1.0, any::<bool>()),
+        ) {
+            let corners = corners.map(|[x, y, z]| if flat { [x, y, 0.3] } else { [x, y, z] });
+            let (u, v): (f64, f64) = if u + v > 1.0 { (1.0 - u, 1.0 - v) } else { (u, v) };
+            let [a, b, c] = corners;
+            let cell = Aabb { min: [-1.0; 3], max: [1.0; 3] };
+            // A little less than the error, for here the point is rounded as well.
+            let point = [0, 1, 2].map(|k| {
+                a[k] + u * (b[k] - a[k]) + v * (c[k] - a[k]) + 0.9 * error * off[k]
+            });
+            prop_assert!(bounds_of(&corners, error).contains(point));
+            prop_assume!(cell.contains(point));
+            let found = clipped_bounds_of(&corners, error, &cell);
+            prop_assert!(found.is_some_and(|found| found.contains(point)), "{:?}", found);
+            let (below, above) = cell.split(axis, position);
+            let halves = split_bounds_of(&corners, error, &cell, axis, position);
+            for (found, half) in halves.into_iter().zip([below, above]) {
+                let is_in = found.is_some_and(|found| found.contains(point));
+                prop_assert!(is_in || !half.contains(point), "{:?}", found);
+                let apart = clipped_bounds_of(&corners, error, &half);
+                let is_in = apart.is_some_and(|apart| apart.contains(point));
+                prop_assert!(is_in || !half.contains(point), "{:?}", apart);
             }
         }
     }

@@ -5,7 +5,7 @@ use super::home::Home;
 use super::homes::Homes;
 use super::wide::reach;
 use super::{WideError, WideTree, structure};
-use crate::geometry::Aabb;
+use crate::geometry::{Aabb, TreeSpace};
 use crate::memory::Store;
 
 /// All that a wide tree is made of, but for its reach, which follows from the root's box.
@@ -49,6 +49,7 @@ impl WideTree {
         if above.len() != arena.slot_count() {
             return Err(WideError::Unreached { reached: arena.slot_count(), lines: above.len() });
         }
-        Ok(Self { homes: Homes::of_stores(homes, above), arena, reach })
+        let (homes, space) = (Homes::of_stores(homes, above), TreeSpace::OF_MESH);
+        Ok(Self { homes, arena, reach, space })
     }
 }

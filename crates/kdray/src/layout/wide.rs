@@ -9,7 +9,7 @@ use super::treelet::Treelet;
 use super::{Hint, TriangleBlock, WideNode};
 use crate::build::parallel::map_all;
 use crate::build::{BuildError, BuildOptions};
-use crate::geometry::Aabb;
+use crate::geometry::{Aabb, Coordinate, TreeSpace};
 use crate::primitives::TriangleMesh;
 use crate::tree::{KdTree, NodeKind};
 use arrayvec::ArrayVec;
@@ -30,12 +30,13 @@ const ROUNDING: f32 = f32::EPSILON / 2.0;
 ///
 /// A child's box is the tight one of what lies in its cell, moved outward by what rounding in f32
 /// may do to the slab test, for rays that start within [`reach`](Self::reach). Leaves hold the
-/// same triangles as those of the canonical tree.
+/// same triangles as those of the canonical tree. Copies of f64 triangles are rounded to f32.
 #[derive(Clone, Debug)]
 pub struct WideTree {
     pub(super) arena: Arena,
     pub(super) homes: Homes,
     pub(super) reach: f32,
+    pub(super) space: TreeSpace,
 }
 
 /// What is known of a subtree once it is placed.
@@ -45,8 +46,8 @@ struct Placed {
     stack: usize,
 }
 
-struct Placer<'a> {
-    mesh: &'a TriangleMesh,
+struct Placer<'a, T: 'static> {
+    mesh: &'a TriangleMesh<T>,
     collapse: &'a Collapse<'a>,
     pad: f64,
 }
@@ -60,10 +61,10 @@ impl WideTree {
     /// # Errors
     /// [`BuildError::Memory`] if both trees would take more than the options allow: how many leaves
     /// list a triangle is only known now.
-    pub(crate) fn new(
+    pub(crate) fn new<T: Coordinate>(
         tree: &KdTree<3>,
         boxes: &[Aabb<3>],
-        mesh: &TriangleMesh,
+        mesh: &TriangleMesh<T>,
         options: &BuildOptions,
     ) -> Result<Option<Self>, BuildError> {
         let Some(reach) = reach(tree.bounds()) else { return Ok(None) };
@@ -86,13 +87,20 @@ impl WideTree {
         debug_assert_eq!(root.link, Link::ROOT);
         let arena = Arena::new(lines.into());
         let fits = stack_size(root.stack) <= STACK_SIZE;
-        Ok(fits.then(|| Self { homes: Homes::new(homes, &arena), arena, reach }))
+        let space = *mesh.tree_space();
+        Ok(fits.then(|| Self { homes: Homes::new(homes, &arena), arena, reach, space }))
     }
 
     /// How far from zero, on any axis, a ray may start so that the boxes' margins cover what
     /// rounding does: as far as the mesh, and four times its extent.
     pub fn reach(&self) -> f32 {
         self.reach
+    }
+
+    /// The coordinates that it is in.
+    #[inline(always)]
+    pub(crate) fn space(&self) -> &TreeSpace {
+        &self.space
     }
 
     /// How much memory the tree takes, in bytes.
@@ -149,7 +157,7 @@ pub(super) fn reach(bounds: &Aabb<3>) -> Option<f32> {
     (!bounds.is_empty() && reach < LARGEST && reach > 1.0 / LARGEST).then_some(reach as f32)
 }
 
-impl Placer<'_> {
+impl<T: Coordinate> Placer<'_, T> {
     /// Places a node of the binary tree as a wide one, then all below it: those of its children that
     /// are nodes at once if there are `plans` for them.
     fn place_node(&self, root: u32, site: &Site, plans: &[Plan], room: &mut Room<'_>) -> Placed {
@@ -204,7 +212,7 @@ impl Placer<'_> {
         room: &mut Room<'_>,
     ) -> Placed {
         let Some(part) = part_of_leaf(ids.len()) else {
-            let triangle = |&id: &u32| (id, self.mesh.corners(id));
+            let triangle = |&id: &u32| (id, self.mesh.rounded_corners(id));
             let blocks = ids.chunks(TriangleBlock::WIDTH);
             let blocks = blocks.map(|ids| TriangleBlock::new(ids.iter().map(triangle)));
             return Placed { link: room.put_leaf(blocks), stack: 0 };

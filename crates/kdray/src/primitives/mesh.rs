@@ -1,17 +1,25 @@
 //! Triangle meshes.
 
 use super::{Hit, HitRule, Intersect, Primitives, intersect_triangle};
-use crate::geometry::{Aabb, Ray, clipped_bounds, split_bounds};
+use crate::geometry::{
+    Aabb, Coordinate, Ray, TreeSpace, bounds_of, clipped_bounds_of, split_bounds_of,
+};
 use crate::memory::Store;
 use thiserror::Error;
 
 /// Triangles that share vertices: positions, and three indices into them a triangle.
 ///
 /// Degenerate triangles are kept and never hit; duplicates are kept; an empty mesh is valid.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct TriangleMesh {
-    vertices: Store<[f32; 3]>,
+///
+/// Positions are f32, or f64 if f32 would round them: the mesh's type is that of the numbers it is made
+/// of, and a literal without a suffix is an f64. All of f64 will do, whatever the size of the mesh and
+/// however far it is from zero; trees over such a mesh are in coordinates of their own
+/// ([`tree_space`](Self::tree_space)).
+#[derive(Clone, Debug, PartialEq)]
+pub struct TriangleMesh<T: 'static = f32> {
+    vertices: Store<[T; 3]>,
     triangles: Store<[u32; 3]>,
+    space: TreeSpace,
 }
 
 /// Why a mesh cannot be used.
@@ -43,7 +51,7 @@ pub enum MeshError {
     TooManyTriangles(usize),
 }
 
-impl TriangleMesh {
+impl<T: Coordinate> TriangleMesh<T> {
     /// A tree's indices have 30 bits.
     const MAX_TRIANGLES: usize = 1 << 30;
 
@@ -52,14 +60,15 @@ impl TriangleMesh {
     /// # Errors
     /// The first triangle that has an index out of range or a vertex that is not finite; 2^30
     /// triangles or more.
-    pub fn new(vertices: Vec<[f32; 3]>, triangles: Vec<[u32; 3]>) -> Result<Self, MeshError> {
+    pub fn new(vertices: Vec<[T; 3]>, triangles: Vec<[u32; 3]>) -> Result<Self, MeshError> {
         if triangles.len() >= Self::MAX_TRIANGLES {
             return Err(MeshError::TooManyTriangles(triangles.len()));
         }
         for (index, triangle) in triangles.iter().enumerate() {
             check_triangle(&vertices, index, triangle)?;
         }
-        Ok(Self { vertices: vertices.into(), triangles: triangles.into() })
+        let space = tree_space(&vertices, &triangles);
+        Ok(Self { vertices: vertices.into(), triangles: triangles.into(), space })
     }
 
     /// Like [`new`](Self::new), but drops the triangles it would refuse, and returns the indices
@@ -68,7 +77,7 @@ impl TriangleMesh {
     /// # Errors
     /// Only that 2^30 triangles or more are left.
     pub fn new_dropping_bad(
-        vertices: Vec<[f32; 3]>,
+        vertices: Vec<[T; 3]>,
         mut triangles: Vec<[u32; 3]>,
     ) -> Result<(Self, Vec<usize>), MeshError> {
         let mut dropped = Vec::new();
@@ -88,10 +97,10 @@ impl TriangleMesh {
     ///
     /// # Errors
     /// As [`new`](Self::new).
-    pub fn from_soup<V: Into<[f32; 3]>>(
+    pub fn from_soup<V: Into<[T; 3]>>(
         soup: impl IntoIterator<Item = [V; 3]>,
     ) -> Result<Self, MeshError> {
-        let vertices: Vec<[f32; 3]> = soup.into_iter().flatten().map(Into::into).collect();
+        let vertices: Vec<[T; 3]> = soup.into_iter().flatten().map(Into::into).collect();
         let count = vertices.len() / 3;
         if count >= Self::MAX_TRIANGLES {
             return Err(MeshError::TooManyTriangles(count));
@@ -100,6 +109,71 @@ impl TriangleMesh {
         Self::new(vertices, triangles.collect())
     }
 
+    /// The vertex positions.
+    pub fn vertices(&self) -> &[[T; 3]] {
+        &self.vertices
+    }
+
+    /// The vertex indices of each triangle.
+    pub fn triangles(&self) -> &[[u32; 3]] {
+        &self.triangles
+    }
+
+    /// The corners a, b, c of a triangle.
+    pub fn corners(&self, id: u32) -> [[T; 3]; 3] {
+        let [a, b, c] = self.triangles[id as usize];
+        [self.vertices[a as usize], self.vertices[b as usize], self.vertices[c as usize]]
+    }
+
+    /// (b−a) x (c−a) of a triangle: its normal, of twice its area in length.
+    pub fn geometric_normal(&self, id: u32) -> [f64; 3] {
+        let [a, b, c] = self.corners(id).map(|p| glam::DVec3::from(p.map(T::to_f64)));
+        (b - a).cross(c - a).into()
+    }
+
+    /// The coordinates that trees over this mesh are in: for f32 the mesh's own.
+    pub fn tree_space(&self) -> &TreeSpace {
+        &self.space
+    }
+
+    /// The corners of a triangle as the tree sees them.
+    #[inline]
+    fn tree_corners(&self, id: u32) -> [[T; 3]; 3] {
+        let corners = self.corners(id);
+        if T::FITS_TREE {
+            return corners;
+        }
+        corners.map(|p| self.space.point(p.map(T::to_f64)).map(T::from_f64))
+    }
+
+    /// The same, rounded to f32.
+    pub(crate) fn rounded_corners(&self, id: u32) -> [[f32; 3]; 3] {
+        self.tree_corners(id).map(|p| p.map(|x| x.to_f64() as f32))
+    }
+}
+
+/// The coordinates of trees over these triangles.
+fn tree_space<T: Coordinate>(vertices: &[[T; 3]], triangles: &[[u32; 3]]) -> TreeSpace {
+    let (mut min, mut max) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+    if !T::FITS_TREE {
+        for position in triangles.iter().flatten().map(|&vertex| vertices[vertex as usize]) {
+            for (k, x) in position.into_iter().enumerate() {
+                (min[k], max[k]) = (min[k].min(x.to_f64()), max[k].max(x.to_f64()));
+            }
+        }
+    }
+    TreeSpace::around::<T>(min, max)
+}
+
+impl<T: Coordinate> Default for TriangleMesh<T> {
+    fn default() -> Self {
+        let (vertices, triangles) = (Store::default(), Store::default());
+        Self { vertices, triangles, space: TreeSpace::OF_MESH }
+    }
+}
+
+/// Meshes of tree files.
+impl TriangleMesh {
     /// A mesh of arrays that come from a file, after the checks of [`new`](Self::new), which take less
     /// time where nothing is wrong.
     pub(crate) fn of_stores(
@@ -117,7 +191,7 @@ impl TriangleMesh {
             numbered
                 .try_for_each(|(index, triangle)| check_triangle(&vertices, index, triangle))?;
         }
-        Ok(Self { vertices, triangles })
+        Ok(Self { vertices, triangles, space: TreeSpace::OF_MESH })
     }
 
     /// The vertex positions, to be saved.
@@ -129,32 +203,10 @@ impl TriangleMesh {
     pub(crate) fn triangle_store(&self) -> &Store<[u32; 3]> {
         &self.triangles
     }
-
-    /// The vertex positions.
-    pub fn vertices(&self) -> &[[f32; 3]] {
-        &self.vertices
-    }
-
-    /// The vertex indices of each triangle.
-    pub fn triangles(&self) -> &[[u32; 3]] {
-        &self.triangles
-    }
-
-    /// The corners a, b, c of a triangle.
-    pub fn corners(&self, id: u32) -> [[f32; 3]; 3] {
-        let [a, b, c] = self.triangles[id as usize];
-        [self.vertices[a as usize], self.vertices[b as usize], self.vertices[c as usize]]
-    }
-
-    /// (b−a) x (c−a) of a triangle: its normal, of twice its area in length.
-    pub fn geometric_normal(&self, id: u32) -> [f64; 3] {
-        let [a, b, c] = self.corners(id).map(|p| glam::DVec3::from(p.map(f64::from)));
-        (b - a).cross(c - a).into()
-    }
 }
 
-fn check_triangle(
-    vertices: &[[f32; 3]],
+fn check_triangle<T: Coordinate>(
+    vertices: &[[T; 3]],
     index: usize,
     triangle: &[u32; 3],
 ) -> Result<(), MeshError> {
@@ -163,24 +215,24 @@ fn check_triangle(
             let vertices = vertices.len();
             return Err(MeshError::IndexOutOfRange { triangle: index, vertex, vertices });
         };
-        if !position.iter().all(|x| x.is_finite()) {
+        if !position.iter().all(|x| x.to_f64().is_finite()) {
             return Err(MeshError::NonFiniteVertex { triangle: index, vertex });
         }
     }
     Ok(())
 }
 
-impl Primitives<3> for TriangleMesh {
+impl<T: Coordinate> Primitives<3> for TriangleMesh<T> {
     fn count(&self) -> usize {
         self.triangles.len()
     }
 
     fn bounds(&self, id: u32) -> Aabb<3> {
-        Aabb::of_points(self.corners(id))
+        bounds_of(&self.tree_corners(id), T::TREE_ERROR)
     }
 
     fn clipped_bounds(&self, id: u32, cell: &Aabb<3>) -> Option<Aabb<3>> {
-        clipped_bounds(&self.corners(id), cell)
+        clipped_bounds_of(&self.tree_corners(id), T::TREE_ERROR, cell)
     }
 
     fn split_bounds(
@@ -190,11 +242,16 @@ impl Primitives<3> for TriangleMesh {
         axis: usize,
         position: f32,
     ) -> [Option<Aabb<3>>; 2] {
-        split_bounds(&self.corners(id), cell, axis, position)
+        split_bounds_of(&self.tree_corners(id), T::TREE_ERROR, cell, axis, position)
+    }
+
+    #[inline]
+    fn ray_in_tree(&self, ray: &Ray<3>) -> Option<Ray<3>> {
+        if T::FITS_TREE { Some(*ray) } else { self.space.ray(ray) }
     }
 }
 
-impl Intersect<3> for TriangleMesh {
+impl<T: Coordinate> Intersect<3> for TriangleMesh<T> {
     #[inline]
     fn intersect(&self, id: u32, ray: &Ray<3>, rule: HitRule, report: &mut impl FnMut(Hit)) {
         if let Some(hit) = intersect_triangle(&self.corners(id), id, ray, rule) {

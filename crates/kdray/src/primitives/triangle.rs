@@ -2,7 +2,7 @@
 
 use super::{Hit, HitRule, Side};
 use crate::exact::{self, Scaled, edge_function, not_vanished, turned_edge_sign};
-use crate::geometry::{Interval, Ray, t_above, t_below};
+use crate::geometry::{Coordinate, Interval, Ray, t_above, t_below};
 use glam::{DVec3, Vec3Swizzles};
 use std::cmp::Ordering;
 
@@ -34,9 +34,11 @@ pub(crate) const BARYCENTRIC_ERROR: f64 = 1.0 / (1u64 << 31) as f64;
 /// numbers, and t errs by a relative 2^-39 at most, usually by 2^-50. Its sign is exact, down to
 /// the smallest f64; beyond the largest f64 there is no hit. u and v err by 2^-30 at most. A
 /// triangle without area or seen edge-on is not hit.
+///
+/// Corners in f32 and the same in f64 give the same hit.
 #[inline(always)]
-pub fn intersect_triangle(
-    corners: &[[f32; 3]; 3],
+pub fn intersect_triangle<T: Coordinate>(
+    corners: &[[T; 3]; 3],
     id: u32,
     ray: &Ray<3>,
     rule: HitRule,
@@ -95,8 +97,8 @@ pub fn intersect_triangle(
 
 /// The same point. Not by `map`, which is not always compiled into the kernels.
 #[inline(always)]
-fn in_f64(&[x, y, z]: &[f32; 3]) -> DVec3 {
-    DVec3::new(f64::from(x), f64::from(y), f64::from(z))
+fn in_f64<T: Coordinate>(&[x, y, z]: &[T; 3]) -> DVec3 {
+    DVec3::new(x.to_f64(), y.to_f64(), z.to_f64())
 }
 
 /// How far T may be off, from the sum of its terms' absolute values.
@@ -107,8 +109,8 @@ fn t_error(terms: f64) -> f64 {
 
 /// t from a den that is good and a T that may not be; `None` if it surely is not in the interval.
 #[inline(never)]
-fn t_carefully(
-    corners: &[[f32; 3]; 3],
+fn t_carefully<T: Coordinate>(
+    corners: &[[T; 3]; 3],
     ray: &Ray<3>,
     den: f64,
     volume: f64,
@@ -135,10 +137,10 @@ fn terms(a: DVec3, b: DVec3, c: DVec3) -> f64 {
 /// without rounding where they are not.
 #[cold]
 #[inline(never)]
-fn is_hit_exactly(
+fn is_hit_exactly<T: Coordinate>(
     values: [f64; 3],
     error: f64,
-    corners: &[[f32; 3]; 3],
+    corners: &[[T; 3]; 3],
     ray: &Ray<3>,
     rule: HitRule,
 ) -> bool {
@@ -168,8 +170,8 @@ fn is_hit_exactly(
 /// t from a den that is good, where T has lost too many digits: near the origin of the ray.
 #[cold]
 #[inline(never)]
-fn t_exactly(corners: &[[f32; 3]; 3], ray: &Ray<3>, den: f64) -> f64 {
-    exact::volume(ray.origin, corners.map(|p| p.map(f64::from)))
+fn t_exactly<T: Coordinate>(corners: &[[T; 3]; 3], ray: &Ray<3>, den: f64) -> f64 {
+    exact::volume(ray.origin, corners.map(|p| p.map(T::to_f64)))
         .value()
         .divided_by(Scaled::from(den))
 }
@@ -177,7 +179,7 @@ fn t_exactly(corners: &[[f32; 3]; 3], ray: &Ray<3>, den: f64) -> f64 {
 /// t, u, v and whether the front is hit, without rounding before the final quotients.
 #[cold]
 #[inline(never)]
-fn values_exactly(corners: &[[f32; 3]; 3], ray: &Ray<3>) -> (f64, f64, f64, bool) {
+fn values_exactly<T: Coordinate>(corners: &[[T; 3]; 3], ray: &Ray<3>) -> (f64, f64, f64, bool) {
     if !are_finite(corners) {
         return (f64::NAN, 0.0, 0.0, false);
     }
@@ -187,19 +189,19 @@ fn values_exactly(corners: &[[f32; 3]; 3], ray: &Ray<3>) -> (f64, f64, f64, bool
     den.add_all(&v);
     let front = den.sign() == Ordering::Greater;
     let den = den.value();
-    let t = exact::volume(ray.origin, corners.map(|p| p.map(f64::from))).value().divided_by(den);
+    let t = exact::volume(ray.origin, corners.map(|p| p.map(T::to_f64))).value().divided_by(den);
     (t, u.value().divided_by(den), v.value().divided_by(den), front)
 }
 
 /// Whether these are corners of a triangle at all. Those in a tree file that was not verified need not
 /// be; none of them is hit.
-fn are_finite(corners: &[[f32; 3]; 3]) -> bool {
-    corners.as_flattened().iter().all(|x| x.is_finite())
+fn are_finite<T: Coordinate>(corners: &[[T; 3]; 3]) -> bool {
+    corners.as_flattened().iter().all(|x| x.to_f64().is_finite())
 }
 
 /// The edges of W, U and V: each runs opposite a, b and c.
-fn directed_edges(corners: &[[f32; 3]; 3]) -> [([f64; 3], [f64; 3]); 3] {
-    let [a, b, c] = corners.map(|p| p.map(f64::from));
+fn directed_edges<T: Coordinate>(corners: &[[T; 3]; 3]) -> [([f64; 3], [f64; 3]); 3] {
+    let [a, b, c] = corners.map(|p| p.map(T::to_f64));
     [(b, c), (c, a), (a, b)]
 }
 

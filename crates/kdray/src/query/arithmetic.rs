@@ -8,6 +8,7 @@ pub enum Arithmetic {
     #[default]
     Exact,
     /// Plain floating point in f32, as in other libraries: somewhat faster, but rays may slip
-    /// through edges and vertices, and t, u and v are good to some five digits.
+    /// through edges and vertices, and t, u and v are good to some five digits. Scenes of f64 vertices
+    /// are exact by this, too.
     Float,
 }

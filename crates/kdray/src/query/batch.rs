@@ -1,12 +1,12 @@
 //! Many rays at once.
 
-use super::{Arithmetic, Scene};
+use super::{Arithmetic, Precision, Scene};
 use crate::geometry::Ray;
 use crate::primitives::Hit;
 use crate::traverse::wide::{Any, Closest, Search, Start, search_along_each};
 use std::borrow::Borrow;
 
-impl Scene {
+impl<T: Precision> Scene<T> {
     /// [`closest_hit`](Self::closest_hit) of each ray, on this thread: `hits[i]` is that of
     /// `rays[i]`. Allocates nothing, unless called within another batch.
     ///
@@ -17,7 +17,7 @@ impl Scene {
     /// If the slices differ in length.
     pub fn closest_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
         assert_eq!(rays.len(), hits.len(), "as many hits as rays");
-        self.each_closest_hit(rays, |index, hit| hits[index] = hit);
+        T::closest_hits(self, rays, hits);
     }
 
     /// [`any_hit`](Self::any_hit) of each ray, on this thread: `found[i]` is that of `rays[i]`.
@@ -27,7 +27,7 @@ impl Scene {
     /// If the slices differ in length.
     pub fn any_hits(&self, rays: &[Ray], found: &mut [bool]) {
         assert_eq!(rays.len(), found.len(), "as many answers as rays");
-        self.each_any_hit(rays, |index, is_hit| found[index] = is_hit);
+        T::any_hits(self, rays, found);
     }
 
     /// [`closest_hits`](Self::closest_hits) on all threads of the current rayon pool.
@@ -71,8 +71,10 @@ impl Scene {
     ) {
         let one = |ray: &Ray| self.closest_hit(ray);
         match self.arithmetic {
-            Arithmetic::Exact => self.each::<Closest<'_, true>>(rays, one, found),
-            Arithmetic::Float => self.each::<Closest<'_, false>>(rays, one, found),
+            Arithmetic::Float if T::FITS_TREE => {
+                self.each::<Closest<'_, T, false>>(rays, one, found);
+            }
+            _ => self.each::<Closest<'_, T, true>>(rays, one, found),
         }
     }
 
@@ -93,14 +95,16 @@ impl Scene {
     ) {
         let one = |ray: &Ray| self.any_hit(ray);
         match self.arithmetic {
-            Arithmetic::Exact => self.each::<Any<true>>(rays, one, found),
-            Arithmetic::Float => self.each::<Any<false>>(rays, one, found),
+            Arithmetic::Float if T::FITS_TREE => {
+                self.each::<Any<'_, T, false>>(rays, one, found);
+            }
+            _ => self.each::<Any<'_, T, true>>(rays, one, found),
         }
     }
 
     /// Searches along each of `rays`: in turns, which was faster on trees of every size, unless they
     /// are so few that to begin with turns takes longer (measured: docs/decisions/0011).
-    fn each<'a, Q: Search<'a>>(
+    fn each<'a, Q: Search<'a, Coordinate = T>>(
         &'a self,
         rays: impl IntoIterator<Item: Start>,
         one: impl Fn(&Ray) -> Q::Answer,
@@ -109,7 +113,7 @@ impl Scene {
         const ENOUGH: usize = 8;
         let rays = rays.into_iter();
         let few = rays.size_hint().1.is_some_and(|most| most < ENOUGH);
-        match self.wide_tree().filter(|_| !few) {
+        match self.wide_and_mesh().filter(|_| !few) {
             Some(tree) => search_along_each::<Q>(tree, rays, self.instructions, one, found),
             None => rays.enumerate().for_each(|(index, ray)| found(index, one(ray.ray()))),
         }

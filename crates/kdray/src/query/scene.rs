@@ -1,7 +1,7 @@
 //! Triangles with their trees.
 
 use super::points::ForPoints;
-use super::{Arithmetic, ShapeScene};
+use super::{Arithmetic, Precision, ShapeScene};
 use crate::build::{BuildError, BuildOptions, BuildProgress};
 use crate::geometry::Ray;
 use crate::layout::{TriangleBlock, WideTree};
@@ -30,16 +30,30 @@ use std::sync::Arc;
 /// assert_eq!((hit.primitive_id, hit.t, hit.u, hit.v), (0, 2.0, 0.25, 0.25));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Clone, Debug)]
-pub struct Scene {
-    pub(super) trees: Arc<Trees>,
+///
+/// Vertices are f32 or f64. Those in f64 may lie anywhere: the tree is in coordinates of its own
+/// ([`TriangleMesh::tree_space`]), and hits are decided on the vertices as they are.
+///
+/// ```
+/// use kdray::{BuildOptions, Ray, Scene, TriangleMesh};
+/// // A millimetre high, in a national grid: f32 would round it away.
+/// let (x, y) = (500_000.0, 5_400_000.0);
+/// let corners = vec![[x, y, 0.001_f64], [x + 1.0, y, 0.002], [x, y + 1.0, 0.001]];
+/// let scene = Scene::build(TriangleMesh::new(corners, vec![[0, 1, 2]])?, &Default::default())?;
+/// let hit = scene.closest_hit(&Ray::new([x + 0.5, y + 0.25, 0.0], [0.0, 0.0, 1.0]));
+/// assert_eq!(hit.map(|hit| (hit.t * 1e6).round()), Some(1500.0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct Scene<T: 'static = f32> {
+    pub(super) trees: Arc<Trees<T>>,
     pub(super) arithmetic: Arithmetic,
     pub(super) instructions: InstructionSet,
 }
 
 #[derive(Debug)]
-pub(super) struct Trees {
-    pub(super) shapes: ShapeScene<TriangleMesh>,
+pub(super) struct Trees<T: 'static> {
+    pub(super) shapes: ShapeScene<TriangleMesh<T>>,
     pub(super) wide: Option<WideTree>,
     /// The file that they lie in, if any.
     source: Option<Source>,
@@ -47,7 +61,13 @@ pub(super) struct Trees {
     pub(super) for_points: ForPoints,
 }
 
-impl Scene {
+impl<T: 'static> Clone for Scene<T> {
+    fn clone(&self) -> Self {
+        Self { trees: Arc::clone(&self.trees), ..*self }
+    }
+}
+
+impl<T: Precision> Scene<T> {
     /// Builds the trees over `mesh`.
     ///
     /// A tree whose cost was weighed for blocks of eight triangles, as by every
@@ -55,7 +75,7 @@ impl Scene {
     ///
     /// # Errors
     /// See [`BuildError`].
-    pub fn build(mesh: TriangleMesh, options: &BuildOptions) -> Result<Self, BuildError> {
+    pub fn build(mesh: TriangleMesh<T>, options: &BuildOptions) -> Result<Self, BuildError> {
         Self::build_with_progress(mesh, options, &|_| ControlFlow::Continue(()))
     }
 
@@ -65,47 +85,11 @@ impl Scene {
     /// # Errors
     /// See [`BuildError`].
     pub fn build_with_progress(
-        mesh: TriangleMesh,
+        mesh: TriangleMesh<T>,
         options: &BuildOptions,
         progress: &(dyn Fn(BuildProgress) -> ControlFlow<()> + Sync),
     ) -> Result<Self, BuildError> {
-        let (shapes, wide) = if options.cost.block == TriangleBlock::WIDTH {
-            let (tree, boxes) = KdTree::build_with_boxes(&mesh, options, progress)?;
-            let wide = WideTree::new(&tree, &boxes, &mesh, options)?;
-            (ShapeScene::of_tree(mesh, tree), wide)
-        } else {
-            (ShapeScene::build_with_progress(mesh, options, progress)?, None)
-        };
-        Ok(Self::of_parts(shapes, wide, None))
-    }
-
-    /// Trees over `mesh` as they are, which lie in the bytes of `source` if it is given.
-    pub(crate) fn of_trees(
-        mesh: TriangleMesh,
-        tree: KdTree,
-        wide: Option<WideTree>,
-        source: Option<SharedBytes>,
-    ) -> Self {
-        let shapes = ShapeScene::of_tree(mesh, tree);
-        Self::of_parts(shapes, wide, source.map(Source))
-    }
-
-    fn of_parts(
-        shapes: ShapeScene<TriangleMesh>,
-        wide: Option<WideTree>,
-        source: Option<Source>,
-    ) -> Self {
-        let for_points = ForPoints::default();
-        Self {
-            trees: Arc::new(Trees { shapes, wide, source, for_points }),
-            arithmetic: Arithmetic::default(),
-            instructions: InstructionSet::best(),
-        }
-    }
-
-    /// The bytes that the trees lie in, if they came with the scene.
-    pub(crate) fn source(&self) -> Option<&[u8]> {
-        self.trees.source.as_ref().map(|Source(bytes)| (**bytes).as_ref())
+        T::build(mesh, options, progress)
     }
 
     /// The same scene, with hits decided by `arithmetic`.
@@ -121,12 +105,12 @@ impl Scene {
     }
 
     /// What rays are tested against.
-    pub fn mesh(&self) -> &TriangleMesh {
+    pub fn mesh(&self) -> &TriangleMesh<T> {
         self.trees.shapes.primitives()
     }
 
     /// Gives the mesh back; a copy if other clones of the scene are in use.
-    pub fn into_mesh(self) -> TriangleMesh {
+    pub fn into_mesh(self) -> TriangleMesh<T> {
         match Arc::try_unwrap(self.trees) {
             Ok(trees) => trees.shapes.into_primitives(),
             Err(shared) => shared.shapes.primitives().clone(),
@@ -146,52 +130,32 @@ impl Scene {
     }
 
     /// The same mesh and canonical tree with the scalar traversal, which can be watched.
-    pub fn shapes(&self) -> &ShapeScene<TriangleMesh> {
+    pub fn shapes(&self) -> &ShapeScene<TriangleMesh<T>> {
         &self.trees.shapes
     }
 
     /// The hit of least t; of several at the same t, the one of the smallest primitive id.
     #[must_use]
     pub fn closest_hit(&self, ray: &Ray) -> Option<Hit> {
-        let Some(tree) = &self.trees.wide else { return self.trees.shapes.closest_hit(ray) };
-        let mut hit = None;
-        let set = self.instructions;
-        let found = match self.arithmetic {
-            Arithmetic::Exact => search_along::<Closest<'_, true>>(tree, ray, set, &mut hit),
-            Arithmetic::Float => search_along::<Closest<'_, false>>(tree, ray, set, &mut hit),
-        };
-        match found {
-            Ok(()) | Err(NoAim::Missed) => hit,
-            Err(NoAim::OutOfRange) => self.trees.shapes.closest_hit(ray),
-        }
+        T::closest_hit(self, ray)
     }
 
     /// Whether there is any hit: whether `ray.interval` is occluded.
     #[must_use]
     pub fn any_hit(&self, ray: &Ray) -> bool {
-        let Some(tree) = &self.trees.wide else { return self.trees.shapes.any_hit(ray) };
-        let mut is_hit = false;
-        let set = self.instructions;
-        let found = match self.arithmetic {
-            Arithmetic::Exact => search_along::<Any<true>>(tree, ray, set, &mut is_hit),
-            Arithmetic::Float => search_along::<Any<false>>(tree, ray, set, &mut is_hit),
-        };
-        match found {
-            Ok(()) | Err(NoAim::Missed) => is_hit,
-            Err(NoAim::OutOfRange) => self.trees.shapes.any_hit(ray),
-        }
+        T::any_hit(self, ray)
     }
 
     /// Every crossing of a surface, once, by rising t
     /// ([`HitRule::Crossing`](crate::primitives::HitRule::Crossing)), found as they are asked for.
-    pub fn all_hits(&self, ray: &Ray) -> AllHits<'_, TriangleMesh, 3> {
+    pub fn all_hits(&self, ray: &Ray) -> AllHits<'_, TriangleMesh<T>, 3> {
         self.trees.shapes.all_hits(ray)
     }
 
     /// Every triangle that the ray touches, by rising t
     /// ([`HitRule::Touching`](crate::primitives::HitRule::Touching)): on a shared edge each of its
     /// triangles.
-    pub fn all_touched(&self, ray: &Ray) -> AllHits<'_, TriangleMesh, 3> {
+    pub fn all_touched(&self, ray: &Ray) -> AllHits<'_, TriangleMesh<T>, 3> {
         self.trees.shapes.all_touched(ray)
     }
 
@@ -200,5 +164,93 @@ impl Scene {
     #[must_use]
     pub fn count(&self, ray: &Ray) -> usize {
         self.trees.shapes.count(ray)
+    }
+}
+
+/// Scenes of tree files.
+impl Scene {
+    /// Trees over `mesh` as they are, which lie in the bytes of `source` if it is given.
+    pub(crate) fn of_trees(
+        mesh: TriangleMesh,
+        tree: KdTree,
+        wide: Option<WideTree>,
+        source: Option<SharedBytes>,
+    ) -> Self {
+        let shapes = ShapeScene::of_tree(mesh, tree);
+        Self::of_parts(shapes, wide, source.map(Source))
+    }
+
+    /// The bytes that the trees lie in, if they came with the scene.
+    pub(crate) fn source(&self) -> Option<&[u8]> {
+        self.trees.source.as_ref().map(|Source(bytes)| (**bytes).as_ref())
+    }
+}
+
+/// What [`Precision`] compiles.
+impl<T: Precision> Scene<T> {
+    pub(super) fn of_mesh(
+        mesh: TriangleMesh<T>,
+        options: &BuildOptions,
+        progress: &(dyn Fn(BuildProgress) -> ControlFlow<()> + Sync),
+    ) -> Result<Self, BuildError> {
+        let (shapes, wide) = if options.cost.block == TriangleBlock::WIDTH {
+            let (tree, boxes) = KdTree::build_with_boxes(&mesh, options, progress)?;
+            let wide = WideTree::new(&tree, &boxes, &mesh, options)?;
+            (ShapeScene::of_tree(mesh, tree), wide)
+        } else {
+            (ShapeScene::build_with_progress(mesh, options, progress)?, None)
+        };
+        Ok(Self::of_parts(shapes, wide, None))
+    }
+
+    fn of_parts(
+        shapes: ShapeScene<TriangleMesh<T>>,
+        wide: Option<WideTree>,
+        source: Option<Source>,
+    ) -> Self {
+        let for_points = ForPoints::default();
+        Self {
+            trees: Arc::new(Trees { shapes, wide, source, for_points }),
+            arithmetic: Arithmetic::default(),
+            instructions: InstructionSet::best(),
+        }
+    }
+
+    /// What the kernels search.
+    #[inline(always)]
+    pub(super) fn wide_and_mesh(&self) -> Option<(&WideTree, &TriangleMesh<T>)> {
+        Some((self.trees.wide.as_ref()?, self.trees.shapes.primitives()))
+    }
+
+    pub(super) fn find_closest_hit(&self, ray: &Ray) -> Option<Hit> {
+        let Some(tree) = self.wide_and_mesh() else { return self.trees.shapes.closest_hit(ray) };
+        let mut hit = None;
+        let set = self.instructions;
+        let found = match self.arithmetic {
+            Arithmetic::Float if T::FITS_TREE => {
+                search_along::<Closest<'_, T, false>>(tree, ray, set, &mut hit)
+            }
+            _ => search_along::<Closest<'_, T, true>>(tree, ray, set, &mut hit),
+        };
+        match found {
+            Ok(()) | Err(NoAim::Missed) => hit,
+            Err(NoAim::OutOfRange) => self.trees.shapes.closest_hit(ray),
+        }
+    }
+
+    pub(super) fn find_any_hit(&self, ray: &Ray) -> bool {
+        let Some(tree) = self.wide_and_mesh() else { return self.trees.shapes.any_hit(ray) };
+        let mut is_hit = false;
+        let set = self.instructions;
+        let found = match self.arithmetic {
+            Arithmetic::Float if T::FITS_TREE => {
+                search_along::<Any<'_, T, false>>(tree, ray, set, &mut is_hit)
+            }
+            _ => search_along::<Any<'_, T, true>>(tree, ray, set, &mut is_hit),
+        };
+        match found {
+            Ok(()) | Err(NoAim::Missed) => is_hit,
+            Err(NoAim::OutOfRange) => self.trees.shapes.any_hit(ray),
+        }
     }
 }

@@ -34,7 +34,7 @@ impl<'a, P: Intersect<K>, const K: usize, T: Trace> AllHits<'a, P, K, T> {
         rule: HitRule,
         mut trace: T,
     ) -> Self {
-        let walk = LeafWalk::new(tree, ray, &mut trace);
+        let walk = LeafWalk::over(tree, primitives, ray, &mut trace);
         Self { primitives, ray: *ray, rule, walk, trace, pending: Vec::new(), last: None }
     }
 

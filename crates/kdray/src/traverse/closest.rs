@@ -13,7 +13,7 @@ pub fn closest_hit<const K: usize>(
     ray: &Ray<K>,
     trace: &mut impl Trace,
 ) -> Option<Hit> {
-    let mut walk = LeafWalk::new(tree, ray, trace);
+    let mut walk = LeafWalk::over(tree, primitives, ray, trace);
     let mut nearest = Nearest::new(ray);
     while let Some(leaf) = walk.next_leaf(nearest.ray.interval.t_max, trace) {
         for &id in leaf.primitives {
@@ -66,7 +66,7 @@ pub fn any_hit<const K: usize>(
     ray: &Ray<K>,
     trace: &mut impl Trace,
 ) -> Option<Hit> {
-    let mut walk = LeafWalk::new(tree, ray, trace);
+    let mut walk = LeafWalk::over(tree, primitives, ray, trace);
     while let Some(leaf) = walk.next_leaf(ray.interval.t_max, trace) {
         for &id in leaf.primitives {
             let mut found = None;

@@ -2,6 +2,7 @@
 
 use super::trace::{LeafStep, SplitStep, Trace, TraversalCase};
 use crate::geometry::{Interval, Ray, t_above, t_below};
+use crate::primitives::Primitives;
 use crate::tree::{KdTree, MAX_DEPTH, NodeKind};
 use arrayvec::ArrayVec;
 
@@ -41,7 +42,31 @@ pub struct LeafVisit<'a> {
 }
 
 impl<'a, const K: usize> LeafWalk<'a, K> {
-    /// A walk along `ray`, over nothing if [`Ray::check`] refuses it.
+    /// A walk along `ray` over a tree of `primitives`, over nothing if [`Ray::check`] refuses it.
+    pub fn over(
+        tree: &'a KdTree<K>,
+        primitives: &impl Primitives<K>,
+        ray: &Ray<K>,
+        trace: &mut impl Trace,
+    ) -> Self {
+        match primitives.ray_in_tree(ray) {
+            None if ray.check().is_ok() => Self::everywhere(tree, ray, trace),
+            in_tree => Self::new(tree, &in_tree.unwrap_or(*ray), trace),
+        }
+    }
+
+    /// A walk over all leaves, for a ray whose numbers do not fit the tree.
+    #[cold]
+    fn everywhere(tree: &'a KdTree<K>, ray: &Ray<K>, trace: &mut impl Trace) -> Self {
+        let Interval { t_min: t_near, t_max: t_far } = Interval::LINE;
+        trace.root(Some(Interval::LINE));
+        let mut stack = ArrayVec::new();
+        stack.push(Waiting { node: 0, t_near, t_far, t_next: t_near });
+        // Every split is undecided.
+        Self { tree, ray: *ray, inverse: [f64::NAN; K], stack }
+    }
+
+    /// A walk along `ray`, which is as the tree sees it, over nothing if [`Ray::check`] refuses it.
     pub fn new(tree: &'a KdTree<K>, ray: &Ray<K>, trace: &mut impl Trace) -> Self {
         let interval = if ray.check().is_ok() { tree.bounds.slab(ray) } else { None };
         trace.root(interval);

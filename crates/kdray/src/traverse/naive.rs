@@ -12,7 +12,7 @@ pub struct Naive<'a, P, V> {
 }
 
 impl<'a, P, V> Naive<'a, P, V> {
-    /// Queries on `primitives`, all of which lie in `volume`.
+    /// Queries on `primitives`, all of which lie in `volume`, which is as their tree sees it.
     pub fn new(primitives: &'a P, volume: V) -> Self {
         Self { primitives, volume }
     }
@@ -23,7 +23,8 @@ impl<'a, P, V> Naive<'a, P, V> {
         P: Intersect<K>,
         V: BoundingVolume<K>,
     {
-        if ray.check().is_err() || self.volume.ray_interval(ray).is_none() {
+        let passes = |in_tree: Ray<K>| self.volume.ray_interval(&in_tree).is_none();
+        if ray.check().is_err() || self.primitives.ray_in_tree(ray).is_some_and(passes) {
             return;
         }
         for id in 0..self.primitives.count() as u32 {

@@ -362,7 +362,7 @@ mod tests {
                 references: vec![].into(),
             }
         };
-        let empty = TriangleMesh::new(vec![], vec![]).unwrap();
+        let empty = TriangleMesh::<f32>::new(vec![], vec![]).unwrap();
         assert_eq!(chain(64).validate(&empty), Ok(()));
         let expected = TreeError::TooDeep { node: 65, depth: 65 };
         assert_eq!(chain(65).validate(&empty), Err(expected));

@@ -3,7 +3,7 @@
 use super::block::{EDGE_ERROR, T_ERROR};
 use super::line::{Line, NoAim, larger};
 use super::rounding::{F32_SLACK, HIT_ERROR, ROUNDING};
-use crate::geometry::Ray;
+use crate::geometry::{Coordinate, Ray};
 use crate::layout::WideTree;
 use crate::simd::Lanes;
 use fearless_simd::prelude::*;
@@ -70,18 +70,25 @@ impl Aim {
 
     /// Prepares a ray. In place: to return an aim costs more than to make one.
     #[inline(always)]
-    pub(super) fn set<S: Lanes>(
+    pub(super) fn set<S: Lanes, T: Coordinate>(
         &mut self,
         simd: S,
         tree: &WideTree,
         ray: &Ray<3>,
     ) -> Result<(), NoAim> {
         let reach = f64::from(tree.reach());
-        if !is_plain(simd, reach, ray) {
-            return self.set_line(simd, ray, &Line::in_reach(reach, ray)?, reach);
+        // In a space of its own the tree is larger, and t with it, so that the direction stays.
+        let (origin, scale) = if T::FITS_TREE {
+            (ray.origin, 1.0)
+        } else {
+            (tree.space().point(ray.origin), tree.space().scale())
+        };
+        let direction = ray.direction;
+        if !is_plain(simd, reach, &origin, &direction) {
+            let line = Line::in_reach(reach, ray, origin)?.scaled(scale)?;
+            return self.set_line(simd, ray, &line, reach);
         }
-        let (origin, direction) = (ray.origin, ray.direction);
-        let line = Line { origin, direction, scale: 1.0, shift: 0.0, moving: 0.0 };
+        let line = Line { origin, direction, scale, shift: 0.0, moving: 0.0 };
         self.set_line(simd, ray, &line, reach)
     }
 
@@ -165,9 +172,9 @@ impl Aim {
 /// Whether a ray can be taken as it is: it starts within the reach, and its direction is neither
 /// very long nor very short.
 #[inline(always)]
-fn is_plain<S: Lanes>(simd: S, reach: f64, ray: &Ray<3>) -> bool {
-    let origin = load(simd, &ray.origin).abs();
-    let direction = load(simd, &ray.direction).abs();
+fn is_plain<S: Lanes>(simd: S, reach: f64, origin: &[f64; 3], direction: &[f64; 3]) -> bool {
+    let origin = load(simd, origin).abs();
+    let direction = load(simd, direction).abs();
     // No comparison with NaN is true.
     origin.simd_le(reach).all_true()
         && direction.simd_le(LARGEST_COMPONENT).all_true()

@@ -14,12 +14,14 @@ use super::stacks::{Stacks, UNDER_WAY, with_stacks};
 use super::start::Start;
 use crate::geometry::Ray;
 use crate::layout::{Link, WideTree};
+use crate::primitives::TriangleMesh;
 use crate::simd::{InstructionSet, Kernel, Lanes};
 use std::marker::PhantomData;
 
 /// A search along each of many rays.
-struct Batch<'a, 's, Q, R, A, F> {
+struct Batch<'a, 's, Q: Search<'a>, R, A, F> {
     tree: &'a WideTree,
+    mesh: &'a TriangleMesh<Q::Coordinate>,
     rays: R,
     stacks: &'s mut Stacks,
     scalar: A,
@@ -63,7 +65,7 @@ impl Queue {
 /// Rays that are out of the kernels' range are answered by `scalar`.
 #[inline(always)]
 pub(crate) fn search_along_each<'a, Q: Search<'a>>(
-    tree: &'a WideTree,
+    (tree, mesh): (&'a WideTree, &'a TriangleMesh<Q::Coordinate>),
     rays: impl Iterator<Item: Start>,
     instructions: InstructionSet,
     scalar: impl Fn(&Ray<3>) -> Q::Answer,
@@ -71,7 +73,7 @@ pub(crate) fn search_along_each<'a, Q: Search<'a>>(
 ) {
     with_stacks(|stacks| {
         let search = PhantomData::<Q>;
-        instructions.run(Batch { tree, rays, stacks, scalar, found, search });
+        instructions.run(Batch { tree, mesh, rays, stacks, scalar, found, search });
     });
 }
 
@@ -85,9 +87,10 @@ where
 
     #[inline(always)]
     fn run<S: Lanes>(self, simd: S) {
-        let Self { tree, rays, stacks, scalar, mut found, .. } = self;
+        let Self { tree, mesh, rays, stacks, scalar, mut found, .. } = self;
         let mut rays = rays.enumerate().fuse();
-        let mut travellers: [Traveller<Q>; UNDER_WAY] = std::array::from_fn(|_| Traveller::idle());
+        let mut travellers: [Traveller<Q>; UNDER_WAY] =
+            std::array::from_fn(|_| Traveller::idle(mesh));
         let (mut nodes, mut leaves) = (Queue::default(), Queue::default());
         let mut idle = Queue { len: UNDER_WAY, slots: std::array::from_fn(|slot| slot as u8) };
         loop {
@@ -95,7 +98,7 @@ where
                 let Some((index, ray)) = rays.next() else { break };
                 let traveller = &mut travellers[usize::from(slot) % UNDER_WAY];
                 let stack = &mut stacks[usize::from(slot) % UNDER_WAY];
-                let started = traveller.start(simd, tree, index, &ray, stack);
+                let started = traveller.start(simd, (tree, mesh), index, &ray, stack);
                 nodes.push_if(started.is_ok(), slot);
                 idle.push_if(started.is_err(), slot);
                 match started {
@@ -137,22 +140,22 @@ where
 }
 
 impl<'a, Q: Search<'a>> Traveller<Q> {
-    fn idle() -> Self {
+    fn idle(mesh: &'a TriangleMesh<Q::Coordinate>) -> Self {
         let ray = Ray { origin: [0.0; 3], direction: [0.0; 3], interval: crate::Interval::FORWARD };
-        Self { index: 0, search: Q::new(&ray), aim: Aim::NONE, next: Link::ROOT }
+        Self { index: 0, search: Q::new(&ray, mesh), aim: Aim::NONE, next: Link::ROOT }
     }
 
     #[inline(always)]
     fn start<S: Lanes, T: Start>(
         &mut self,
         simd: S,
-        tree: &WideTree,
+        (tree, mesh): (&WideTree, &'a TriangleMesh<Q::Coordinate>),
         index: usize,
         start: &T,
         stack: &mut Stack,
     ) -> Result<(), NoAim> {
-        self.aim.set(simd, tree, start.ray())?;
-        self.search = Q::new(start.ray());
+        self.aim.set::<S, Q::Coordinate>(simd, tree, start.ray())?;
+        self.search = Q::new(start.ray(), mesh);
         stack.clear();
         self.index = index;
         self.next = Link::ROOT;

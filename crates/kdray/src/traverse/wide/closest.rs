@@ -3,10 +3,10 @@
 use super::aim::Aim;
 use super::block::{BlockTest, Depths};
 use super::float::FloatHit;
-use super::search::Search;
-use crate::geometry::Ray;
+use super::search::{Search, triangle};
+use crate::geometry::{Coordinate, Ray};
 use crate::layout::TriangleBlock;
-use crate::primitives::{Hit, HitRule, intersect_triangle};
+use crate::primitives::{Hit, HitRule, TriangleMesh, intersect_triangle};
 use crate::simd::Lanes;
 use fearless_simd::prelude::*;
 
@@ -15,7 +15,8 @@ use fearless_simd::prelude::*;
 /// A triangle that is surely hit, and surely before all others so far, is only noted: its hit is
 /// computed when the search is over, or when another comes so close that the filter cannot tell
 /// which is first.
-pub(crate) struct Closest<'a, const EXACT: bool> {
+pub(crate) struct Closest<'a, T: 'static, const EXACT: bool> {
+    mesh: &'a TriangleMesh<T>,
     /// The best hit that was computed, unless one that is noted is before it.
     best: Option<Hit>,
     noted: Option<(&'a TriangleBlock, usize)>,
@@ -25,19 +26,20 @@ pub(crate) struct Closest<'a, const EXACT: bool> {
     t_low: f32,
 }
 
-impl<'a, const EXACT: bool> Search<'a> for Closest<'a, EXACT> {
+impl<'a, T: Coordinate, const EXACT: bool> Search<'a> for Closest<'a, T, EXACT> {
+    type Coordinate = T;
     type Answer = Option<Hit>;
     const SHORTENS: bool = true;
 
     #[inline(always)]
-    fn new(ray: &Ray<3>) -> Self {
-        Self { best: None, noted: None, open: *ray, t_low: f32::INFINITY }
+    fn new(ray: &Ray<3>, mesh: &'a TriangleMesh<T>) -> Self {
+        Self { mesh, best: None, noted: None, open: *ray, t_low: f32::INFINITY }
     }
 
     #[inline(always)]
     fn visit<S: Lanes>(&mut self, simd: S, block: &'a TriangleBlock, aim: &mut Aim) -> bool {
         if EXACT {
-            let test = BlockTest::new::<true>(simd, block, aim);
+            let test = BlockTest::new::<T, true>(simd, block, aim);
             let candidates = test.candidates(aim).to_bitmask();
             if candidates != 0 {
                 self.narrow(block, candidates, &test.depths(simd, aim), aim);
@@ -57,7 +59,7 @@ impl<'a, const EXACT: bool> Search<'a> for Closest<'a, EXACT> {
     }
 }
 
-impl<'a, const EXACT: bool> Closest<'a, EXACT> {
+impl<'a, T: Coordinate, const EXACT: bool> Closest<'a, T, EXACT> {
     /// Finds which of the candidates may be the best hit: notes it if there is one that surely is,
     /// otherwise decides exactly.
     #[inline(always)]
@@ -119,7 +121,7 @@ impl<'a, const EXACT: bool> Closest<'a, EXACT> {
 
     #[inline(always)]
     fn compute(&self, block: &TriangleBlock, lane: usize) -> Option<Hit> {
-        let (corners, id) = (block.triangle(lane), block.id(lane));
+        let (corners, id) = (triangle(self.mesh, block, lane), block.id(lane));
         intersect_triangle(&corners, id, &self.open, HitRule::Touching)
     }
 

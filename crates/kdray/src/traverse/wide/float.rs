@@ -19,7 +19,7 @@ impl FloatHit {
     /// The nearest hit in a block, if there is any in the ray's interval.
     #[inline(always)]
     pub(super) fn nearest<S: Lanes>(simd: S, block: &TriangleBlock, aim: &Aim) -> Option<Self> {
-        let test = BlockTest::new::<false>(simd, block, aim);
+        let test = BlockTest::new::<f32, false>(simd, block, aim);
         let hit = test.candidates(aim) & test.den.simd_gt(0.0);
         if hit.to_bitmask() == 0 {
             return None;

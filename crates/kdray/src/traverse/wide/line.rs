@@ -30,27 +30,35 @@ pub(super) struct Line {
 }
 
 impl Line {
-    /// The line of a ray that starts beyond the reach, is very long or very short, or is none.
+    /// The line of a ray that starts beyond the reach, is very long or very short, or is none; its origin
+    /// is as the tree sees it.
     #[cold]
     #[inline(never)]
-    pub(super) fn in_reach(reach: f64, ray: &Ray<3>) -> Result<Self, NoAim> {
+    pub(super) fn in_reach(reach: f64, ray: &Ray<3>, origin: [f64; 3]) -> Result<Self, NoAim> {
         if ray.check().is_err() {
             return Err(NoAim::Missed);
         }
         let size = |v: &[f64; 3]| v.iter().fold(0.0, |most, x| larger(most, x.abs()));
-        let (longest, farthest) = (size(&ray.direction), size(&ray.origin));
+        let (longest, farthest) = (size(&ray.direction), size(&origin));
         if !SIZES.contains(&longest) || farthest > reach * FARTHEST {
             return Err(NoAim::OutOfRange);
         }
         let scale = power_of_two_below(longest);
         let direction = ray.direction.map(|d| d * (1.0 / scale));
         if farthest <= reach {
-            return Ok(Self { origin: ray.origin, direction, scale, shift: 0.0, moving: 0.0 });
+            return Ok(Self { origin, direction, scale, shift: 0.0, moving: 0.0 });
         }
-        let shift = entry(reach, &ray.origin, &direction).ok_or(NoAim::Missed)?;
-        let origin = std::array::from_fn(|k| ray.origin[k] + shift * direction[k]);
+        let shift = entry(reach, &origin, &direction).ok_or(NoAim::Missed)?;
+        let origin = std::array::from_fn(|k| origin[k] + shift * direction[k]);
         let moving = 2.0 * f64::EPSILON * (farthest + 2.0 * shift.abs());
         Ok(Self { origin, direction, scale, shift, moving })
+    }
+
+    /// The line in a tree that is larger than the mesh by a power of two.
+    #[inline(always)]
+    pub(super) fn scaled(self, scale: f64) -> Result<Self, NoAim> {
+        let scale = self.scale * scale;
+        if scale.is_normal() { Ok(Self { scale, ..self }) } else { Err(NoAim::OutOfRange) }
     }
 }
 

@@ -3,25 +3,26 @@
 use super::aim::Aim;
 use super::closest::Closest;
 use super::search::Search;
-use crate::geometry::Ray;
+use crate::geometry::{Coordinate, Ray};
 use crate::layout::TriangleBlock;
-use crate::primitives::Hit;
+use crate::primitives::{Hit, TriangleMesh};
 use crate::simd::Lanes;
 
 /// The closest hit and the block it was found in, to make a hint of: the last block that shortened
 /// the ray. That need not be right, for a hint may be of any place.
-pub(crate) struct Located<'a, const EXACT: bool> {
-    closest: Closest<'a, EXACT>,
+pub(crate) struct Located<'a, T: 'static, const EXACT: bool> {
+    closest: Closest<'a, T, EXACT>,
     block: Option<&'a TriangleBlock>,
 }
 
-impl<'a, const EXACT: bool> Search<'a> for Located<'a, EXACT> {
+impl<'a, T: Coordinate, const EXACT: bool> Search<'a> for Located<'a, T, EXACT> {
+    type Coordinate = T;
     type Answer = Option<(Hit, Option<&'a TriangleBlock>)>;
     const SHORTENS: bool = true;
 
     #[inline(always)]
-    fn new(ray: &Ray<3>) -> Self {
-        Self { closest: Closest::new(ray), block: None }
+    fn new(ray: &Ray<3>, mesh: &'a TriangleMesh<T>) -> Self {
+        Self { closest: Closest::new(ray, mesh), block: None }
     }
 
     #[inline(always)]

@@ -8,11 +8,13 @@ use super::slab::{Meeting, Slabs};
 use super::stack::Stack;
 use crate::geometry::Ray;
 use crate::layout::{Hint, Link, WideTree};
+use crate::primitives::TriangleMesh;
 use crate::simd::{InstructionSet, Kernel, Lanes};
 
 /// A search along one ray, which begins at the root, or at a hint's node if NEAR.
 struct Single<'a, 's, Q: Search<'a>, const NEAR: bool> {
     tree: &'a WideTree,
+    mesh: &'a TriangleMesh<Q::Coordinate>,
     ray: &'s Ray<3>,
     hint: Hint,
     stack: &'s mut Stack,
@@ -23,27 +25,29 @@ struct Single<'a, 's, Q: Search<'a>, const NEAR: bool> {
 /// Searches along `ray`; sets `answer` if something is found.
 #[inline(always)]
 pub(crate) fn search_along<'a, Q: Search<'a>>(
-    tree: &'a WideTree,
+    (tree, mesh): (&'a WideTree, &'a TriangleMesh<Q::Coordinate>),
     ray: &Ray<3>,
     instructions: InstructionSet,
     answer: &mut Q::Answer,
 ) -> Result<(), NoAim> {
     let hint = Hint::NONE;
     Stack::of_thread(|stack| {
-        instructions.run(Single::<Q, false> { tree, ray, hint, stack, answer })
+        instructions.run(Single::<Q, false> { tree, mesh, ray, hint, stack, answer })
     })
 }
 
 /// Searches along `ray`, beginning with what lies near `hint`; sets `answer` if something is found.
 #[inline(always)]
 pub(crate) fn search_near<'a, Q: Search<'a>>(
-    tree: &'a WideTree,
+    (tree, mesh): (&'a WideTree, &'a TriangleMesh<Q::Coordinate>),
     ray: &Ray<3>,
     hint: Hint,
     instructions: InstructionSet,
     answer: &mut Q::Answer,
 ) -> Result<(), NoAim> {
-    Stack::of_thread(|stack| instructions.run(Single::<Q, true> { tree, ray, hint, stack, answer }))
+    Stack::of_thread(|stack| {
+        instructions.run(Single::<Q, true> { tree, mesh, ray, hint, stack, answer })
+    })
 }
 
 impl<'a, Q: Search<'a>, const NEAR: bool> Kernel for Single<'a, '_, Q, NEAR> {
@@ -51,11 +55,11 @@ impl<'a, Q: Search<'a>, const NEAR: bool> Kernel for Single<'a, '_, Q, NEAR> {
 
     #[inline(always)]
     fn run<S: Lanes>(self, simd: S) -> Self::Output {
-        let Self { tree, ray, hint, stack, answer } = self;
+        let Self { tree, mesh, ray, hint, stack, answer } = self;
         let mut aim = Aim::NONE;
-        aim.set(simd, tree, ray)?;
+        aim.set::<S, Q::Coordinate>(simd, tree, ray)?;
         let mut slabs = Slabs::new(simd, &aim);
-        let mut search = Q::new(ray);
+        let mut search = Q::new(ray, mesh);
         stack.clear();
         let mut next =
             if NEAR { climb::<S, Q>(simd, tree, hint, &aim, &slabs, stack) } else { Link::ROOT };

@@ -1,0 +1,118 @@
+//! The precision of a scene's vertices, and what is compiled for each.
+
+use super::Scene;
+use crate::build::{BuildError, BuildOptions, BuildProgress};
+use crate::geometry::{Coordinate, Ray, RayPacket};
+use crate::layout::Hint;
+use crate::primitives::{Hit, HitArrays, TriangleMesh};
+use crate::traverse::wide::packet::PacketWork;
+use std::ops::ControlFlow;
+
+/// What may be told how far a build is.
+type Progress<'a> = &'a (dyn Fn(BuildProgress) -> ControlFlow<()> + Sync);
+
+/// The precision of a [`Scene`]'s vertices: f32 or f64. Nothing else can be one.
+///
+/// Its methods are those of the scene. They are here so that the builders and the kernels are compiled once
+/// for each precision, in this crate, and not anew in each that uses scenes.
+pub trait Precision: Coordinate {
+    #[doc(hidden)]
+    fn build(
+        mesh: TriangleMesh<Self>,
+        options: &BuildOptions,
+        progress: Progress<'_>,
+    ) -> Result<Scene<Self>, BuildError>;
+    #[doc(hidden)]
+    fn closest_hit(scene: &Scene<Self>, ray: &Ray) -> Option<Hit>;
+    #[doc(hidden)]
+    fn any_hit(scene: &Scene<Self>, ray: &Ray) -> bool;
+    #[doc(hidden)]
+    fn closest_hit_with_hint(scene: &Scene<Self>, ray: &Ray) -> Option<(Hit, Hint)>;
+    #[doc(hidden)]
+    fn any_hit_near(scene: &Scene<Self>, ray: &Ray, hint: Hint) -> bool;
+    #[doc(hidden)]
+    fn closest_hits(scene: &Scene<Self>, rays: &[Ray], hits: &mut [Option<Hit>]);
+    #[doc(hidden)]
+    fn any_hits(scene: &Scene<Self>, rays: &[Ray], found: &mut [bool]);
+    #[doc(hidden)]
+    fn any_hits_near(scene: &Scene<Self>, rays: &[Ray], hints: &[Hint], found: &mut [bool]);
+    #[doc(hidden)]
+    fn packet_closest_hits(
+        scene: &Scene<Self>,
+        packet: &RayPacket<'_>,
+        hits: &mut HitArrays,
+    ) -> PacketWork;
+    #[doc(hidden)]
+    fn packet_any_hits(
+        scene: &Scene<Self>,
+        packet: &RayPacket<'_>,
+        found: &mut [bool],
+    ) -> PacketWork;
+}
+
+macro_rules! compile_for {
+    ($($coordinate:ty)*) => {
+        $(
+            impl Precision for $coordinate {
+                fn build(
+                    mesh: TriangleMesh<Self>,
+                    options: &BuildOptions,
+                    progress: Progress<'_>,
+                ) -> Result<Scene<Self>, BuildError> {
+                    Scene::of_mesh(mesh, options, progress)
+                }
+
+                fn closest_hit(scene: &Scene<Self>, ray: &Ray) -> Option<Hit> {
+                    scene.find_closest_hit(ray)
+                }
+
+                fn any_hit(scene: &Scene<Self>, ray: &Ray) -> bool {
+                    scene.find_any_hit(ray)
+                }
+
+                fn closest_hit_with_hint(scene: &Scene<Self>, ray: &Ray) -> Option<(Hit, Hint)> {
+                    scene.find_closest_hit_with_hint(ray)
+                }
+
+                fn any_hit_near(scene: &Scene<Self>, ray: &Ray, hint: Hint) -> bool {
+                    scene.find_any_hit_near(ray, hint)
+                }
+
+                fn closest_hits(scene: &Scene<Self>, rays: &[Ray], hits: &mut [Option<Hit>]) {
+                    scene.each_closest_hit(rays, |index, hit| hits[index] = hit);
+                }
+
+                fn any_hits(scene: &Scene<Self>, rays: &[Ray], found: &mut [bool]) {
+                    scene.each_any_hit(rays, |index, is_hit| found[index] = is_hit);
+                }
+
+                fn any_hits_near(
+                    scene: &Scene<Self>,
+                    rays: &[Ray],
+                    hints: &[Hint],
+                    found: &mut [bool],
+                ) {
+                    scene.find_any_hits_near(rays, hints, found);
+                }
+
+                fn packet_closest_hits(
+                    scene: &Scene<Self>,
+                    packet: &RayPacket<'_>,
+                    hits: &mut HitArrays,
+                ) -> PacketWork {
+                    scene.find_packet_closest_hits(packet, hits)
+                }
+
+                fn packet_any_hits(
+                    scene: &Scene<Self>,
+                    packet: &RayPacket<'_>,
+                    found: &mut [bool],
+                ) -> PacketWork {
+                    scene.find_packet_any_hits(packet, found)
+                }
+            }
+        )*
+    };
+}
+
+compile_for!(f32 f64);
