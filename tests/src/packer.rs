@@ -16,7 +16,7 @@ const COUNTS: [usize; 8] = [1, 3, 8, 64, 255, 256, 257, 1000];
 ///
 /// A packet is a place and points: the rays go from the place through the points, or from the points to
 /// the place, or through the points in the direction of the place.
-pub struct Packer<'a, T = f32> {
+pub struct Packer<'a, T: 'static = f32> {
     archer: Archer<'a, TriangleMesh<T>, 3>,
     aimed: &'a [Ray],
     random: Pcg64Mcg,
