@@ -22,6 +22,11 @@ impl<'a, S: Subject<K>, const K: usize> Archer<'a, S, K> {
     pub fn new(subject: &'a S, seed: u64) -> Self {
         let ids = 0..subject.count() as u32;
         let bounds = ids.fold(Aabb::EMPTY, |bounds, id| bounds.union(&subject.bounds(id)));
+        Self::within(subject, bounds, seed)
+    }
+
+    /// The same for a subject whose bounds are known.
+    pub fn within(subject: &'a S, bounds: Aabb<K>, seed: u64) -> Self {
         Self { subject, bounds, random: random(seed) }
     }
 
