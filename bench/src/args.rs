@@ -24,6 +24,9 @@ pub(crate) enum Task {
     /// Build time and rays a second on the fractal terrain, from ten thousand triangles to ten
     /// million, with the exponent of the build time.
     Scaling(Scaling),
+    /// Answers to the rays of `cargo xtask attack --peers`, which calls this.
+    #[command(hide = true)]
+    Peers(Peers),
 }
 
 /// What is compared.
@@ -113,6 +116,13 @@ pub(crate) struct Scaling {
     /// Write all figures to this file
     #[arg(long, value_name = "OUT.json")]
     pub(crate) json: Option<PathBuf>,
+}
+
+/// Where the rays are.
+#[derive(Debug, Args)]
+pub(crate) struct Peers {
+    /// The folder of the cases, each a folder of its own.
+    pub(crate) folder: PathBuf,
 }
 
 fn numbers(text: &str) -> Result<[f64; 3], String> {

@@ -15,6 +15,7 @@ mod machine;
 mod measure;
 mod memory;
 mod packets;
+mod peers;
 mod rays;
 mod reference;
 mod report;
@@ -30,6 +31,7 @@ fn main() -> ExitCode {
     let arguments = args::Arguments::parse();
     let outcome = match &arguments.task {
         Some(args::Task::Scaling(options)) => scaling::run(options),
+        Some(args::Task::Peers(options)) => peers::run(options),
         None => compare::run(&arguments.compare),
     };
     match outcome {

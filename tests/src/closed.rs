@@ -1,7 +1,7 @@
 //! Which parts of a mesh are closed surfaces.
 
 use kdray::TriangleMesh;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// The triangles of a mesh that belong to closed components, as a mesh of its own.
 ///
@@ -29,6 +29,22 @@ pub fn closed_part(mesh: &TriangleMesh) -> TriangleMesh {
     let kept = (0..triangles.len()).filter(|&index| !open[components.root(index)]);
     let kept = kept.map(|index| triangles[index]).collect();
     TriangleMesh::new(positions, kept).expect("parts of a valid mesh are valid")
+}
+
+/// Whether a ray without end from outside of the box of `mesh` crosses it an even number of times, however
+/// it lies: if every edge has an even number of triangles, vertices at the same position taken as one.
+pub fn is_closed(mesh: &TriangleMesh) -> bool {
+    let place = |vertex: u32| mesh.vertices()[vertex as usize].map(|x| (x + 0.0).to_bits());
+    let mut odd = HashSet::new();
+    for triangle in mesh.triangles() {
+        for (a, b) in sides(triangle).map(|(a, b)| (place(a), place(b))) {
+            let edge = (a.min(b), a.max(b));
+            if a != b && !odd.remove(&edge) {
+                odd.insert(edge);
+            }
+        }
+    }
+    odd.is_empty()
 }
 
 /// A mesh without doubles of positions and without triangles that use a position twice.
@@ -120,6 +136,15 @@ mod tests {
         assert_eq!(closed_triangles(&torus), torus.triangles().len());
         assert_eq!(closed_triangles(&mesh(grid(3, 2))), 0);
         assert_eq!(closed_triangles(&mesh(boxes(1))), 12);
+    }
+
+    #[test]
+    fn cubes_side_by_side_are_closed_and_without_a_triangle_they_are_not() {
+        let mut soup = boxes(2);
+        assert!(is_closed(&mesh(soup.clone())));
+        soup.pop();
+        assert!(!is_closed(&mesh(soup)));
+        assert!(is_closed(&torus(7, 5)) && !is_closed(&mesh(grid(3, 2))));
     }
 
     #[test]

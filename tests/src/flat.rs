@@ -54,6 +54,28 @@ impl Flat {
     /// The hit of least t; of several at the same t, the one of the smallest id.
     pub fn closest_hit(&self, ray: &Ray<3>) -> Option<Hit> {
         let mut best: Option<Hit> = None;
+        self.each_candidate(ray, |corners, id| {
+            let hit = intersect_triangle(corners, id, ray, HitRule::Touching);
+            best = match (best, hit) {
+                (Some(best), Some(hit)) if best.precedes(&hit) => Some(best),
+                (best, hit) => hit.or(best),
+            };
+        });
+        best
+    }
+
+    /// All hits that count by `rule`, in order.
+    pub fn all_hits(&self, ray: &Ray<3>, rule: HitRule) -> Vec<Hit> {
+        let mut hits = Vec::new();
+        self.each_candidate(ray, |corners, id| {
+            hits.extend(intersect_triangle(corners, id, ray, rule));
+        });
+        hits.sort_by(Hit::order);
+        hits
+    }
+
+    /// Gives `look` the corners and ids of all triangles that the line of `ray` may meet, and of others.
+    pub(crate) fn each_candidate(&self, ray: &Ray<3>, mut look: impl FnMut(&[[f32; 3]; 3], u32)) {
         let line = Line::of(ray);
         for (outer, outer_sphere) in self.outer_spheres.iter().enumerate() {
             if line.is_clear_of(outer_sphere) {
@@ -64,15 +86,10 @@ impl Flat {
                     continue;
                 }
                 for (corners, id) in &self.triangles[chunk(inner, self.triangles.len())] {
-                    let hit = intersect_triangle(corners, *id, ray, HitRule::Touching);
-                    best = match (best, hit) {
-                        (Some(best), Some(hit)) if best.precedes(&hit) => Some(best),
-                        (best, hit) => hit.or(best),
-                    };
+                    look(corners, *id);
                 }
             }
         }
-        best
     }
 }
 
@@ -123,8 +140,10 @@ struct Line {
 }
 
 impl Line {
+    /// Of a direction whose length cannot be told well, one of NaN, which is clear of nothing.
     fn of(ray: &Ray<3>) -> Self {
         let length = distance(ray.direction, [0.0; 3]);
+        let length = if (1e-140..1e140).contains(&length) { length } else { f64::NAN };
         Self { origin: ray.origin, direction: ray.direction.map(|d| d / length) }
     }
 
@@ -135,7 +154,7 @@ impl Line {
         let [x, y, z]: [f64; 3] = std::array::from_fn(|k| sphere.center[k] - self.origin[k]);
         let [a, b, c] = self.direction;
         let (i, j, k) = (y * c - z * b, z * a - x * c, x * b - y * a);
-        let doubt = 1e-12 * (x.abs() + y.abs() + z.abs());
+        let doubt = 1e-14 * (x.abs() + y.abs() + z.abs());
         let radius = sphere.radius + doubt;
         i * i + j * j + k * k > radius * radius * (1.0 + 1e-9)
     }

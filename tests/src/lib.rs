@@ -4,6 +4,7 @@
 #![forbid(unsafe_code)]
 
 pub mod agree;
+pub mod attack;
 pub mod bundles;
 pub mod closed;
 pub mod command_line;
@@ -13,6 +14,7 @@ pub mod oracle;
 pub mod owned_packet;
 pub mod packer;
 pub mod parity;
+pub mod peers;
 pub mod points;
 pub mod rays;
 pub mod shared;

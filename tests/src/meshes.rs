@@ -169,3 +169,53 @@ pub fn torus(major: usize, minor: usize) -> TriangleMesh {
     let triangles = grid.flat_map(cell).collect();
     TriangleMesh::new(vertices, triangles).expect("a torus is finite")
 }
+
+/// A closed cube from 0 to 1 whose sides are cut into n x n cells of two triangles.
+pub fn cube(n: usize) -> TriangleMesh {
+    let mut soup = Soup::new();
+    for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
+        for (axis, end) in [(0, 0.0), (1, 0.0), (2, 0.0), (0, 1.0), (1, 1.0), (2, 1.0)] {
+            let at = |i: usize, j: usize| {
+                let mut p = [end; 3];
+                p[(axis + 1) % 3] = i as f32 / n as f32;
+                p[(axis + 2) % 3] = j as f32 / n as f32;
+                p
+            };
+            let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+            soup.extend(if end == 1.0 { [[a, b, c], [a, c, d]] } else { [[a, c, b], [a, d, c]] });
+        }
+    }
+    mesh(soup)
+}
+
+/// A closed [`sphere`] with a spike of that height on every triangle.
+pub fn spikes(rings: usize, height: f32) -> TriangleMesh {
+    let sphere = sphere(rings);
+    let mut soup = Soup::new();
+    for id in 0..sphere.triangles().len() as u32 {
+        let [a, b, c] = sphere.corners(id);
+        let tip = std::array::from_fn(|k| height * (a[k] + b[k] + c[k]));
+        soup.extend([[a, b, tip], [b, c, tip], [c, a, tip]]);
+    }
+    mesh(soup)
+}
+
+/// A flat [`grid`] and its back in the same place: closed, around nothing.
+pub fn pillow(n: usize) -> TriangleMesh {
+    let front = grid(n, 1);
+    let back = front.iter().map(|&[a, b, c]| [a, c, b]);
+    mesh(front.iter().copied().chain(back).collect())
+}
+
+/// A closed spindle from −1 to 1 along x, of that thickness: `sides` needles meet at each of its ends.
+pub fn spindle(sides: usize, thickness: f64) -> TriangleMesh {
+    let rim = |i: usize| {
+        let angle = TAU * (i % sides) as f64 / sides as f64;
+        [0.0, thickness * angle.cos(), thickness * angle.sin()].map(|x| x as f32)
+    };
+    let side = |i: usize| {
+        let (a, b) = (rim(i), rim(i + 1));
+        [[[1.0, 0.0, 0.0], a, b], [[-1.0, 0.0, 0.0], b, a]]
+    };
+    mesh((0..sides).flat_map(side).collect())
+}

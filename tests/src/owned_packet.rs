@@ -43,6 +43,17 @@ impl OwnedPacket {
         Self { intervals: Intervals::Each(t_min, t_max), ..self.clone() }
     }
 
+    /// Only the rays of these numbers.
+    #[must_use]
+    pub fn only(&self, indices: &[usize]) -> Self {
+        let of = |numbers: &Vec<f64>| indices.iter().map(|&index| numbers[index]).collect();
+        let intervals = match &self.intervals {
+            Intervals::Same(interval) => Intervals::Same(*interval),
+            Intervals::Each(t_min, t_max) => Intervals::Each(of(t_min), of(t_max)),
+        };
+        Self { common: self.common, each: self.each.each_ref().map(of), intervals }
+    }
+
     /// The packet.
     pub fn packet(&self) -> RayPacket<'_> {
         let [x, y, z] = &self.each;

@@ -3,7 +3,7 @@
 use crate::owned_packet::OwnedPacket;
 use crate::rays::{Archer, random};
 use kdray::geometry::{Common, tile_order};
-use kdray::{Coordinate, KdTree, Ray, TriangleMesh};
+use kdray::{Aabb, Coordinate, KdTree, Ray, TriangleMesh};
 use rand::RngExt;
 use rand::seq::IndexedRandom;
 use rand_pcg::Pcg64Mcg;
@@ -26,6 +26,11 @@ impl<'a, T: Coordinate> Packer<'a, T> {
     /// Packets at `mesh`, which some rays were aimed at.
     pub fn new(mesh: &'a TriangleMesh<T>, aimed: &'a [Ray], seed: u64) -> Self {
         Self { archer: Archer::new(mesh, seed), aimed, random: random(seed) }
+    }
+
+    /// The same at a mesh whose bounds are known.
+    pub fn within(mesh: &'a TriangleMesh, bounds: Aabb<3>, aimed: &'a [Ray], seed: u64) -> Self {
+        Self { archer: Archer::within(mesh, bounds, seed), aimed, random: random(seed) }
     }
 
     /// Packets of every kind and size, `each` of them; places are up to `farthest` diagonals away.
@@ -81,8 +86,8 @@ impl<'a, T: Coordinate> Packer<'a, T> {
         packets
     }
 
-    /// A packet of each kind of [`Common`].
-    fn at_points(&mut self, count: usize, farthest: f64) -> [OwnedPacket; 3] {
+    /// A packet of each kind of [`Common`], of that many rays.
+    pub fn at_points(&mut self, count: usize, farthest: f64) -> [OwnedPacket; 3] {
         let place = self.place(farthest);
         let mut points = self.points(count, place);
         if self.random.random_range(0..3) == 0 {

@@ -1,7 +1,7 @@
 //! Rays that are hard on purpose. All are seeded: the same on every run.
 
 use crate::Subject;
-use kdray::{Interval, KdTree, Ray, tree::NodeKind};
+use kdray::{Aabb, Interval, KdTree, Ray, tree::NodeKind};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
@@ -23,6 +23,12 @@ impl<'a, S: Subject<K>, const K: usize> Archer<'a, S, K> {
     /// Rays at `subject`.
     pub fn new(subject: &'a S, seed: u64) -> Self {
         let (min, max) = subject.extent();
+        Self { subject, min, max, random: random(seed) }
+    }
+
+    /// The same for a subject whose bounds are known.
+    pub fn within(subject: &'a S, bounds: Aabb<K>, seed: u64) -> Self {
+        let (min, max) = (bounds.min.map(f64::from), bounds.max.map(f64::from));
         Self { subject, min, max, random: random(seed) }
     }
 

@@ -3,9 +3,11 @@
 #![forbid(unsafe_code)]
 
 mod agree;
+mod attack;
 mod bench;
 mod lint;
 mod parity;
+mod peers;
 mod pixels;
 mod steps;
 mod test;
@@ -31,6 +33,9 @@ enum Task {
     Agree(agree::Options),
     /// Rays at every vertex and edge of closed meshes: `count` must be even. In a release build.
     Parity(parity::Options),
+    /// Rays that are aimed to break kdray, at closed and awkward meshes; every answer must be right. In a
+    /// release build.
+    Attack(attack::Options),
     /// kdray beside Embree and other libraries: rays a second, build times, memory, wrong answers.
     #[command(disable_help_flag = true)]
     Bench(bench::Options),
@@ -44,6 +49,7 @@ fn main() -> ExitCode {
         Task::Test => test::run(),
         Task::Agree(options) => agree::run(&options),
         Task::Parity(options) => parity::run(&options),
+        Task::Attack(options) => attack::run(&options),
         Task::Bench(options) => bench::run(options),
         Task::Pixels(options) => pixels::run(&options),
     };

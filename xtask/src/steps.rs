@@ -45,11 +45,23 @@ impl Steps {
         arguments: &[String],
         environment: &[(&str, &str)],
     ) -> Result<(), String> {
-        self.count += 1;
         let line = format!("cargo {}", arguments.join(" "));
+        let mut command = cargo();
+        command.args(arguments).envs(environment.iter().copied());
+        self.run(what, &mut command, &line)
+    }
+
+    /// Runs a program; `line` is how it is told.
+    pub(crate) fn run(
+        &mut self,
+        what: &str,
+        command: &mut Command,
+        line: &str,
+    ) -> Result<(), String> {
+        self.count += 1;
         say(&format!("--- {what}: {line}"));
         let started = Instant::now();
-        let status = cargo().args(arguments).envs(environment.iter().copied()).status();
+        let status = command.status();
         let seconds = started.elapsed().as_secs_f64();
         match status {
             Ok(status) if status.success() => {
@@ -57,7 +69,7 @@ impl Steps {
                 Ok(())
             }
             Ok(status) => Err(format!("{what} failed after {seconds:.1} s ({status}): {line}")),
-            Err(error) => Err(format!("{what}: cannot start cargo: {error}")),
+            Err(error) => Err(format!("{what}: cannot start {}: {error}", first_word(line))),
         }
     }
 
@@ -78,6 +90,10 @@ impl Steps {
         let seconds = self.started.elapsed().as_secs_f64();
         say(&format!("=== {task}: all {} steps passed in {seconds:.1} s", self.count));
     }
+}
+
+fn first_word(line: &str) -> &str {
+    line.split_whitespace().next().unwrap_or(line)
 }
 
 /// An option and its value, if it has one.

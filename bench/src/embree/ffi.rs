@@ -16,6 +16,8 @@ pub(super) const BUILD_QUALITY_MEDIUM: c_int = 1;
 pub(super) const BUILD_QUALITY_HIGH: c_int = 2;
 pub(super) const SCENE_FLAG_NONE: c_int = 0;
 pub(super) const SCENE_FLAG_ROBUST: c_int = 1 << 2;
+pub(super) const SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS: c_int = 1 << 3;
+pub(super) const RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER: c_int = 1 << 1;
 pub(super) const RAY_QUERY_FLAG_INCOHERENT: c_int = 0;
 pub(super) const RAY_QUERY_FLAG_COHERENT: c_int = 1 << 16;
 pub(super) const FEATURE_FLAG_ALL: c_uint = 0xffff_ffff;
@@ -108,6 +110,29 @@ pub(super) struct Arguments {
     pub(super) min_width_distance_factor: f32,
 }
 
+/// `RTCRayQueryContext`, to which more may be added at its end.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Context {
+    pub(super) instance: [c_uint; 1],
+    pub(super) instance_primitive: [c_uint; 1],
+}
+
+/// `RTCFilterFunctionNArguments`, for one ray at a time.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FilterArguments {
+    pub(super) valid: *mut c_int,
+    pub(super) user: *mut c_void,
+    pub(super) context: *mut c_void,
+    pub(super) ray: *const Ray,
+    pub(super) hit: *const Hit,
+    pub(super) count: c_uint,
+}
+
+/// `RTCFilterFunctionN`.
+pub(super) type Filter = unsafe extern "C" fn(*const FilterArguments);
+
 /// `RTCMemoryMonitorFunction`: called with the bytes that are allocated, or negative ones that are
 /// freed.
 pub(super) type MemoryMonitor = unsafe extern "C" fn(*mut c_void, isize, bool) -> bool;
@@ -152,5 +177,8 @@ mod tests {
         assert_eq!(std::mem::offset_of!(Ray, t_far), 32);
         assert_eq!(std::mem::offset_of!(Hit, primitive), 20);
         assert_eq!(std::mem::offset_of!(Arguments, context), 8);
+        assert_eq!(std::mem::offset_of!(Arguments, filter), 16);
+        assert_eq!((size_of::<Context>(), std::mem::offset_of!(FilterArguments, ray)), (8, 24));
+        assert_eq!(std::mem::offset_of!(FilterArguments, count), 40);
     }
 }

@@ -1,6 +1,6 @@
 //! Opening the library at run time.
 
-use super::ffi::Functions;
+use super::ffi::{self, Functions};
 use super::scene::Scene;
 use super::{Quality, wheel};
 use crate::error::BenchError;
@@ -72,7 +72,17 @@ impl Embree {
         quality: Quality,
         threads: usize,
     ) -> Result<Scene, BenchError> {
-        Scene::build(Arc::clone(&self.inner), mesh, quality, threads)
+        Scene::build(Arc::clone(&self.inner), mesh, quality, threads, ffi::SCENE_FLAG_NONE)
+    }
+
+    /// Builds a scene on one thread that can be asked for all hits.
+    pub(crate) fn collecting_scene(
+        &self,
+        mesh: &TriangleMesh,
+        quality: Quality,
+    ) -> Result<Scene, BenchError> {
+        let flags = ffi::SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS;
+        Scene::build(Arc::clone(&self.inner), mesh, quality, 1, flags)
     }
 
     /// The version, such as 4.4.0.

@@ -4,6 +4,7 @@
 //! does not compare needs neither.
 #![expect(unsafe_code, reason = "a C library is called")]
 
+mod collect;
 mod ffi;
 mod library;
 mod scene;

@@ -11,11 +11,11 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicIsize, Ordering};
 
 /// A device, which counts its memory.
-struct Device {
+pub(super) struct Device {
     raw: ffi::Device,
     /// Bytes allocated and not freed. Boxed: the library holds its address.
     bytes: Box<AtomicIsize>,
-    library: Arc<Open>,
+    pub(super) library: Arc<Open>,
 }
 
 // SAFETY: Embree's devices may be used from any thread.
@@ -74,9 +74,9 @@ pub(super) fn version(library: Arc<Open>) -> Result<isize, BenchError> {
 
 /// A scene, ready for rays.
 pub(crate) struct Scene {
-    raw: ffi::Scene,
+    pub(super) raw: ffi::Scene,
     arguments: [Arguments; 2],
-    device: Device,
+    pub(super) device: Device,
 }
 
 // SAFETY: a committed scene may be asked from any thread; the pointers in `arguments` are null.
@@ -97,6 +97,7 @@ impl Scene {
         mesh: &TriangleMesh,
         quality: Quality,
         threads: usize,
+        flags: c_int,
     ) -> Result<Self, BenchError> {
         let device = Device::new(library, threads)?;
         // SAFETY: the device is alive.
@@ -104,12 +105,17 @@ impl Scene {
         device.check("making a scene")?;
         let hints = [ffi::RAY_QUERY_FLAG_INCOHERENT, ffi::RAY_QUERY_FLAG_COHERENT];
         let scene = Self { raw, arguments: hints.map(arguments), device };
-        scene.commit(mesh, quality)?;
+        scene.commit(mesh, quality, flags)?;
         Ok(scene)
     }
 
     /// Gives the scene its triangles and builds its BVH.
-    fn commit(&self, mesh: &TriangleMesh, quality: Quality) -> Result<(), BenchError> {
+    fn commit(
+        &self,
+        mesh: &TriangleMesh,
+        quality: Quality,
+        more_flags: c_int,
+    ) -> Result<(), BenchError> {
         let functions = &self.device.library.functions;
         let (build, flags) = match quality {
             Quality::Medium => (ffi::BUILD_QUALITY_MEDIUM, ffi::SCENE_FLAG_NONE),
@@ -120,7 +126,7 @@ impl Scene {
         // reference of its own.
         unsafe {
             (functions.set_scene_build_quality)(self.raw, build);
-            (functions.set_scene_flags)(self.raw, flags);
+            (functions.set_scene_flags)(self.raw, flags | more_flags);
             let geometry = (functions.new_geometry)(self.device.raw, ffi::GEOMETRY_TYPE_TRIANGLE);
             self.device.check("making a geometry")?;
             (functions.set_geometry_build_quality)(geometry, build);
@@ -214,7 +220,7 @@ impl Scene {
     }
 }
 
-fn arguments(flags: c_int) -> Arguments {
+pub(super) fn arguments(flags: c_int) -> Arguments {
     Arguments {
         flags,
         feature_mask: ffi::FEATURE_FLAG_ALL,
@@ -225,7 +231,7 @@ fn arguments(flags: c_int) -> Arguments {
     }
 }
 
-const NO_HIT: ffi::Hit = ffi::Hit {
+pub(super) const NO_HIT: ffi::Hit = ffi::Hit {
     normal: [0.0; 3],
     uv: [0.0; 2],
     primitive: ffi::INVALID_GEOMETRY_ID,
@@ -245,7 +251,7 @@ const NO_HIT8: ffi::Hit8 = ffi::Hit8 {
 
 /// A ray in Embree's format.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct SingleRay(ffi::Ray);
+pub(crate) struct SingleRay(pub(super) ffi::Ray);
 
 impl SingleRay {
     /// The ray for t from 0 to `t_far`.

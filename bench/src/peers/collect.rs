@@ -1,0 +1,85 @@
+//! All hits, by those who have such a query.
+
+use super::ROUNDS;
+use crate::embree::{Embree, Quality, SingleRay};
+use crate::error::BenchError;
+use crate::measure::{median, timed_here};
+use crate::rays::Ray;
+use crate::reference::exact_ray;
+use kdray::{BuildOptions, Scene, TriangleMesh};
+
+/// The t of all hits of all rays, and how long it took.
+#[derive(Default)]
+pub(super) struct Lists {
+    /// Where each ray's hits begin, and where the last one's end.
+    pub(super) splits: Vec<u64>,
+    /// In the order in which they were found.
+    pub(super) t: Vec<f32>,
+    /// The triangles: written like the rest, for nobody wants hits without.
+    ids: Vec<u32>,
+    /// Seconds of processor time.
+    pub(super) seconds: f64,
+}
+
+impl Lists {
+    fn begin(&mut self) {
+        self.t.clear();
+        self.ids.clear();
+        self.splits.clear();
+        self.splits.push(0);
+    }
+
+    fn push(&mut self, t: f32, id: u32) {
+        self.t.push(t);
+        self.ids.push(id);
+    }
+
+    fn end_ray(&mut self) {
+        self.splits.push(self.t.len() as u64);
+    }
+
+    /// Traces in rounds; `each` adds the hits of a ray.
+    fn traced<R>(rays: &[R], mut each: impl FnMut(&R, &mut Self)) -> Self {
+        let mut lists = Self::default();
+        let mut round = || {
+            let trace = || {
+                lists.begin();
+                for ray in rays {
+                    each(ray, &mut lists);
+                    lists.end_ray();
+                }
+            };
+            timed_here(trace).1.cpu
+        };
+        let seconds = median((0..ROUNDS).map(|_| round()).collect());
+        Self { seconds, ..lists }
+    }
+}
+
+/// kdray's `all_hits`.
+pub(super) fn kdray(mesh: &TriangleMesh, rays: &[Ray]) -> Result<Lists, BenchError> {
+    let scene = Scene::build(mesh.clone(), &BuildOptions::default())?;
+    let rays: Vec<kdray::Ray> = rays.iter().map(exact_ray).collect();
+    Ok(Lists::traced(&rays, |ray, lists| {
+        for hit in scene.all_hits(ray) {
+            lists.push(hit.t as f32, hit.primitive_id);
+        }
+    }))
+}
+
+/// Embree's `rtcIntersect1` with a filter that collects, sorted.
+pub(super) fn embree(
+    library: &Embree,
+    quality: Quality,
+    mesh: &TriangleMesh,
+    rays: &[Ray],
+) -> Result<Lists, BenchError> {
+    let scene = library.collecting_scene(mesh, quality)?;
+    let ray = |ray: &Ray| SingleRay::new(ray.origin, ray.direction, ray.t_max);
+    let rays: Vec<SingleRay> = rays.iter().map(ray).collect();
+    let mut hits = Vec::new();
+    Ok(Lists::traced(&rays, |ray, lists| {
+        scene.all(ray, &mut hits);
+        hits.iter().for_each(|&(t, id)| lists.push(t, id));
+    }))
+}

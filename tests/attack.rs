@@ -1,0 +1,133 @@
+//! A short form of `cargo xtask attack`, and that the attack finds what is wrong: answers are spoilt on
+//! purpose.
+
+use kdray::Hit;
+use kdray_tests::attack::answers::{Answers, Said};
+use kdray_tests::attack::campaign::Outcome;
+use kdray_tests::attack::case::Tamper;
+use kdray_tests::attack::{Campaign, Limits, Tally, Target, targets};
+use kdray_tests::meshes;
+use std::time::Duration;
+
+/// How many rays are shot at meshes made by code, and how many at small scenes.
+const RAYS: u64 = 10_000;
+
+/// Scenes of at most so many triangles are shot at.
+const SMALL: usize = 6_500;
+
+fn outcomes(
+    targets: Vec<Target>,
+    rays: u64,
+    tamper: Option<Tamper<'_>>,
+    shrink: Duration,
+) -> Vec<Outcome> {
+    let limits = Limits { rays, until: None };
+    let (is_stopped, progress) = (&|| false, &|_, _: &str| {});
+    Campaign { targets, seed: 7, limits, is_stopped, progress, shrink, tamper }.run()
+}
+
+fn assert_right(targets: Vec<Target>) {
+    let outcomes = outcomes(targets, RAYS, None, Duration::from_secs(10));
+    for outcome in &outcomes {
+        let Outcome { name, tally, example, case, .. } = outcome;
+        let case = case.as_ref().map(ToString::to_string).unwrap_or_default();
+        assert_eq!(outcome.errors(), 0, "{name}: {tally:?} {example:?}\n{case}");
+        assert!(tally.crossing * 10 > tally.rays, "{name} is hardly crossed: {tally:?}");
+        assert!(tally.oracle > 0 && tally.close * 20 > tally.rays, "{name}: {tally:?}");
+    }
+}
+
+#[test]
+fn meshes_made_by_code_withstand() {
+    assert_right(targets::made());
+}
+
+#[test]
+fn small_scenes_withstand() {
+    assert_right(targets::of_scenes(SMALL));
+}
+
+/// Attacks a torus with answers that `tamper` spoils: the kind of error that was found first, and the case.
+fn found(tamper: impl Fn(&mut Answers) + Sync, shrink: u64) -> Outcome {
+    let torus = vec![Target::new("torus", meshes::torus(10, 7))];
+    outcomes(torus, 2000, Some(&tamper), Duration::from_secs(shrink)).remove(0)
+}
+
+/// Spoils all lists of crossings, of rays that cross twice or more.
+fn spoil(answers: &mut Answers, how: impl Fn(&mut Vec<Hit>)) {
+    for ray in answers.rays.iter_mut().filter(|ray| ray.crossed.len() > 1) {
+        how(&mut ray.crossed);
+        ray.count = ray.crossed.len();
+    }
+}
+
+#[test]
+fn every_kind_of_error_is_found() {
+    type Spoil = fn(&mut Answers);
+    type Count = fn(&Tally) -> u64;
+    let kinds: [(Spoil, Count); 10] = [
+        (
+            |it| spoil(it, |hits| hits.truncate(hits.len() - 1)),
+            |tally| tally.lost.min(tally.miscounted),
+        ),
+        (|it| spoil(it, |hits| hits[0].primitive_id ^= 1), |tally| tally.phantom),
+        (|it| it.rays.iter_mut().for_each(|ray| ray.count += 2), |tally| tally.miscounted),
+        (|it| spoil(it, |hits| hits.swap(0, 1)), |tally| tally.disordered),
+        (|it| spoil(it, |hits| hits.push(hits[0])), |tally| tally.duplicate.min(tally.disordered)),
+        (|it| spoil(it, |hits| hits[0].t *= 1.0 + 1e-9), |tally| tally.numbers),
+        (|it| it.rays.iter_mut().for_each(|ray| ray.closest = None), |tally| tally.lost),
+        (|it| it.rays.iter_mut().for_each(|ray| ray.any = true), |tally| tally.phantom),
+        (
+            |it| it.rays.iter_mut().for_each(|ray| ray.closest = ray.touched.last().copied()),
+            |tally| tally.disordered,
+        ),
+        (spoil_a_bit, |tally| tally.differing),
+    ];
+    for (index, (spoil, count)) in kinds.into_iter().enumerate() {
+        let outcome = found(spoil, 0);
+        assert!(count(&outcome.tally) > 0, "{index}: {:?}", outcome.tally);
+        assert!(outcome.example.is_some(), "{index}");
+    }
+}
+
+/// Turns the last bit of u in what kernels say.
+fn spoil_a_bit(answers: &mut Answers) {
+    for other in &mut answers.others {
+        if let Said::Closest(hits) = &mut other.said {
+            for hit in hits.iter_mut().flatten() {
+                hit.u = hit.u.next_up();
+            }
+        }
+    }
+}
+
+#[test]
+fn parity_alone_finds_what_is_lost_in_pairs_of_counts() {
+    // From inside of the closed torus each ray's count is made even.
+    let outcome = found(
+        |answers| {
+            for ray in answers.rays.iter_mut().filter(|ray| ray.crossed.len() % 2 == 1) {
+                ray.crossed.pop();
+                ray.count -= 1;
+            }
+        },
+        0,
+    );
+    assert!(outcome.tally.miscounted > 50, "{:?}", outcome.tally);
+}
+
+#[test]
+fn one_wrong_answer_among_many_becomes_a_small_case() {
+    // Triangles facing each other: a hit on any of the later half of a ray's crossings is lost.
+    let outcome = found(
+        |answers| {
+            for ray in answers.rays.iter_mut().filter(|ray| ray.touched.len() >= 4) {
+                ray.touched.remove(1);
+            }
+        },
+        60,
+    );
+    let case = outcome.case.expect("there is one");
+    assert!(case.volley.rays.len() == 1 && case.soup.len() == 4, "{case}");
+    assert!(case.to_string().contains("assert_right(\"sah\", triangles, volley);"), "{case}");
+}

@@ -1,0 +1,276 @@
+//! Where volleys come from and go to. All are seeded: the same on every run.
+
+use super::{Target, Truth, Volley, volley::SIZE};
+use crate::flat::Flat;
+use crate::rays::{Archer, random, rounded};
+use crate::{OwnedPacket, Packer};
+use kdray::geometry::Common;
+use kdray::{Interval, Ray, Scene};
+use rand::RngExt;
+use rand::seq::IndexedRandom;
+use rand_pcg::Pcg64Mcg;
+
+/// How far away rays begin, in diagonals.
+const FAR: f64 = 1e5;
+
+/// How far away the farthest begin. From there hardly any triangle is clear of a ray, and each is decided by
+/// exact arithmetic: so they are few, and only at few triangles.
+const FARTHEST: f64 = 1e12;
+const FEW_TRIANGLES: usize = 1000;
+const FEW_RAYS: usize = 4;
+
+/// How many points in the inside of a closed mesh are sought.
+const INSIDE: usize = 64;
+
+/// After so many volleys all kinds were made once.
+pub const KINDS: u64 = 60;
+
+/// Where the rays of a volley begin.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum From {
+    Outside,
+    Inside,
+    Surface,
+    Afar,
+}
+
+/// What they are aimed at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum At {
+    Vertex,
+    EdgeMiddle,
+    Edge,
+    Face,
+}
+
+/// What they share.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Share {
+    Origin,
+    Target,
+    Direction,
+}
+
+/// Makes volleys at a target.
+pub struct Gunner<'a> {
+    target: &'a Target,
+    inside: Vec<[f64; 3]>,
+    seed: u64,
+}
+
+impl<'a> Gunner<'a> {
+    /// Looks for points inside, if the target is closed: such that two rays in any directions cross it an
+    /// odd number of times.
+    pub fn new(target: &'a Target, flat: &Flat, seed: u64) -> Self {
+        let mut gunner = Self { target, inside: Vec::new(), seed };
+        if target.is_closed {
+            let mut archer = Archer::within(&target.mesh, target.bounds, seed);
+            let places =
+                std::iter::repeat_with(|| archer.around(0.0).map(rounded)).take(20 * INSIDE);
+            let mut random = random(seed);
+            let inside = places.filter(|&place| is_inside(flat, place, &mut random));
+            gunner.inside = inside.take(INSIDE).collect();
+        }
+        gunner
+    }
+
+    /// The volley of a number, at the mesh of `scene`. The tree is only used to aim.
+    ///
+    /// Four fifths of all volleys come from one of four places, at one of four kinds of points, and share
+    /// one of three things; the others are those of [`Packer`] and [`Archer`].
+    pub fn volley(&self, number: u64, scene: &Scene) -> Volley {
+        let seed = self.seed.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(number);
+        let mut random = random(seed);
+        // In steps of seven, so that few volleys in a row are of many kinds.
+        let (cycle, kind) = (number / KINDS, number % KINDS * 7 % KINDS);
+        if kind >= 48 {
+            return self.special(kind, scene, seed, &mut random);
+        }
+        let from = [From::Outside, From::Inside, From::Surface, From::Afar][kind as usize % 4];
+        let at = [At::Vertex, At::EdgeMiddle, At::Edge, At::Face][kind as usize / 4 % 4];
+        let share = [Share::Origin, Share::Target, Share::Direction][kind as usize / 16];
+        // Of the twelve kinds at the same points each takes the next ones, so that all have their turn.
+        let turn = cycle * 12 + kind % 4 + 4 * (kind / 16);
+        let is_farthest =
+            from == From::Afar && (cycle + kind / 4).is_multiple_of(4) && self.farthest() > FAR;
+        let count = if is_farthest { FEW_RAYS } else { SIZE };
+        let mut point = |i: usize| self.point(at, turn as usize * SIZE + i, &mut random);
+        let points: Vec<[f64; 3]> = (0..count).map(&mut point).collect();
+        let far = if is_farthest { FARTHEST } else { FAR };
+        let volley = self.aimed((from, far), share, &points, &mut random);
+        if random.random_range(0..4) == 0 {
+            cut_at_hits(volley, scene, &mut random)
+        } else {
+            volley
+        }
+    }
+
+    /// Points on edges and in faces are rounded, and so lie beside them.
+    fn point(&self, at: At, number: usize, random: &mut Pcg64Mcg) -> [f64; 3] {
+        let Target { mesh, vertices, edges, .. } = self.target;
+        let vertex = |v: u32| mesh.vertices()[v as usize].map(f64::from);
+        let between = |(a, b): (u32, u32), s: f64| {
+            let (a, b) = (vertex(a), vertex(b));
+            std::array::from_fn(|k| a[k] + s * (b[k] - a[k]))
+        };
+        match at {
+            At::Vertex => vertex(vertices[number % vertices.len()]),
+            At::EdgeMiddle => between(edges[number % edges.len()], 0.5),
+            At::Edge => between(edges[number % edges.len()], random.random()),
+            At::Face => {
+                let [a, b, c] = mesh.triangles()[number % mesh.triangles().len()].map(vertex);
+                let (s, t): (f64, f64) = (random.random(), random.random());
+                let (s, t) = if s + t > 1.0 { (1.0 - s, 1.0 - t) } else { (s, t) };
+                std::array::from_fn(|k| a[k] + s * (b[k] - a[k]) + t * (c[k] - a[k]))
+            }
+        }
+    }
+
+    fn aimed(
+        &self,
+        (from, far): (From, f64),
+        share: Share,
+        points: &[[f64; 3]],
+        random: &mut Pcg64Mcg,
+    ) -> Volley {
+        let place = |random: &mut Pcg64Mcg| self.origin(from, far, random);
+        let packet = match share {
+            Share::Origin => {
+                let origin = place(random);
+                let directions: Vec<_> = points.iter().map(|&p| minus(p, origin)).collect();
+                OwnedPacket::new(Common::Origin(origin), &directions)
+            }
+            Share::Target => {
+                let origins: Vec<_> = points.iter().map(|_| place(random)).collect();
+                let packet = OwnedPacket::new(Common::Target(points[0]), &origins);
+                // Half of them end at the target, the others cross the whole mesh.
+                match random.random() {
+                    true => packet.with_interval(Interval::FORWARD),
+                    false => packet,
+                }
+            }
+            Share::Direction => {
+                let direction = self.direction(minus(points[0], place(random)), random);
+                let back = if from == From::Surface { 0.0 } else { 1.0 };
+                let behind = |&p: &[f64; 3]| minus(p, direction.map(|d| back * d));
+                let origins: Vec<_> = points.iter().map(behind).collect();
+                OwnedPacket::new(Common::Direction(direction), &origins)
+            }
+        };
+        let from_inside = from == From::Inside && share != Share::Direction;
+        Volley { from_inside: from_inside && !self.inside.is_empty(), ..Volley::of_packet(packet) }
+    }
+
+    /// Where a ray begins: on the surface if there is no inside.
+    fn origin(&self, from: From, far: f64, random: &mut Pcg64Mcg) -> [f64; 3] {
+        let mut archer = Archer::within(&self.target.mesh, self.target.bounds, random.random());
+        match (from, self.inside.choose(random)) {
+            (From::Outside, _) => self.outside(random),
+            (From::Afar, _) => archer.point_afar(far),
+            (From::Inside, Some(&place)) => place,
+            _ => {
+                let at = [At::Vertex, At::EdgeMiddle, At::Face][random.random_range(0..3)];
+                self.point(at, random.random_range(0..usize::MAX / 2), random)
+            }
+        }
+    }
+
+    /// A point outside of the box: a little, far, or above the middle of a side. In f32, so that the
+    /// direction to a vertex is not rounded, unless it is far.
+    fn outside(&self, random: &mut Pcg64Mcg) -> [f64; 3] {
+        let bounds = &self.target.bounds;
+        let (center, extent) = (bounds.center(), bounds.extent());
+        let is_aligned = random.random_range(0..10) == 0;
+        let mut point: [f64; 3] = std::array::from_fn(|k| {
+            let offset = if is_aligned { 0.0 } else { random.random_range(-1.0..1.0) };
+            center[k] + extent[k] * offset
+        });
+        let axis = random.random_range(0..3);
+        let distance = [0.51, 0.75, 1.0, 2.0, 10.0][random.random_range(0..5)];
+        let sign = if random.random() { 1.0 } else { -1.0 };
+        point[axis] = center[axis] + sign * distance * bounds.diagonal();
+        point.map(rounded)
+    }
+
+    /// The direction, or one along an axis, in a plane of two axes, or longer or shorter.
+    fn direction(&self, direction: [f64; 3], random: &mut Pcg64Mcg) -> [f64; 3] {
+        let zero = if random.random() { 0.0 } else { -0.0 };
+        let axis = random.random_range(0..3);
+        let mut direction = direction;
+        match random.random_range(0..6) {
+            0 | 1 => {
+                let length = self.target.bounds.diagonal().max(f64::MIN_POSITIVE);
+                direction = [zero; 3];
+                direction[axis] = if random.random() { length } else { -length };
+            }
+            2 => direction[axis] = zero,
+            3 => direction = direction.map(|d| d * 2.0_f64.powi(random.random_range(-60..60))),
+            _ => {}
+        }
+        direction
+    }
+
+    /// How far away the farthest rays begin.
+    fn farthest(&self) -> f64 {
+        if self.target.mesh.triangles().len() <= FEW_TRIANGLES { FARTHEST } else { FAR }
+    }
+
+    /// Packets of every kind, packets in split planes, and single rays of every kind.
+    fn special(&self, kind: u64, scene: &Scene, seed: u64, random: &mut Pcg64Mcg) -> Volley {
+        let Target { mesh, bounds, .. } = self.target;
+        let aimed = Archer::within(mesh, *bounds, seed).all_kinds(2, FAR);
+        let mut packer = Packer::within(mesh, *bounds, &aimed, seed);
+        let count = [1, 7, 64, 65, 130, 520][random.random_range(0..6)];
+        let packets: Vec<OwnedPacket> = match kind % 3 {
+            0 => packer.at_points(count, FAR).into(),
+            1 => packer.in_split_planes(scene.tree(), 1),
+            _ => Vec::new(),
+        };
+        if let Some(packet) = packets.choose(random) {
+            return cut_at_hits(Volley::of_packet(packet.clone()), scene, random);
+        }
+        let mut archer = Archer::within(mesh, *bounds, seed);
+        let mut rays = archer.all_kinds(4, self.farthest());
+        rays.extend(archer.in_split_planes(scene.tree(), 12));
+        let cut: Vec<Ray> = rays.iter().map(|ray| cut(ray, scene, random)).collect();
+        Volley::of_rays([rays, cut].concat())
+    }
+}
+
+/// Whether two rays in any directions from there cross the triangles an odd number of times.
+pub(crate) fn is_inside(flat: &Flat, place: [f64; 3], random: &mut Pcg64Mcg) -> bool {
+    let mut crosses = || {
+        let direction = [0; 3].map(|_| random.random_range(-1.0..1.0));
+        let (least, most) = Truth::of(flat, &Ray::new(place, direction)).count(Interval::FORWARD);
+        least == most && least % 2 == 1
+    };
+    crosses() && crosses()
+}
+
+/// The same rays, each with an interval that begins or ends exactly at a hit, or a step beside it.
+fn cut_at_hits(volley: Volley, scene: &Scene, random: &mut Pcg64Mcg) -> Volley {
+    let rays: Vec<Ray> = volley.rays.iter().map(|ray| cut(ray, scene, random)).collect();
+    let intervals: Vec<Interval> = rays.iter().map(|ray| ray.interval).collect();
+    let packet = volley.packet.map(|packet| packet.with_intervals(&intervals));
+    Volley { rays, packet, ..volley }
+}
+
+fn cut(ray: &Ray, scene: &Scene, random: &mut Pcg64Mcg) -> Ray {
+    let hits: Vec<f64> = scene.shapes().all_touched(ray).take(5).map(|hit| hit.t).collect();
+    let Some(&t) = hits.choose(random) else { return *ray };
+    let infinite = f64::INFINITY;
+    let ends = [
+        (t, infinite),
+        (t.next_up(), infinite),
+        (0.0, t),
+        (-infinite, t.next_down()),
+        (t, t),
+        (-infinite, infinite),
+    ];
+    let (t_min, t_max) = ends[random.random_range(0..ends.len())];
+    ray.with_interval(t_min, t_max)
+}
+
+fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|k| a[k] - b[k])
+}

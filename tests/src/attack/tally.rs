@@ -1,0 +1,76 @@
+//! Wrong answers, counted by what is wrong with them.
+
+use kdray::Ray;
+
+/// How many answers are wrong, by what is wrong with them.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Tally {
+    /// How many rays were looked at.
+    pub rays: u64,
+    /// Of these, how many cross the mesh at all.
+    pub crossing: u64,
+    /// How many meet an edge or a vertex, or nearly: so that rational arithmetic decided.
+    pub close: u64,
+    /// How many were compared with rational arithmetic in all numbers.
+    pub oracle: u64,
+    /// Hits that are not in a list, or rays that hit something and are said not to.
+    pub lost: u64,
+    /// Hits that are none, or rays that hit nothing and are said to.
+    pub phantom: u64,
+    /// Rays whose number of crossings, or its parity, is wrong.
+    pub miscounted: u64,
+    /// Hits that stand before a nearer one.
+    pub disordered: u64,
+    /// Hits that stand in a list twice.
+    pub duplicate: u64,
+    /// Hits whose t, u, v or side are wrong.
+    pub numbers: u64,
+    /// Answers of other kernels that are not the same to the last bit.
+    pub differing: u64,
+    /// The first thing that was wrong, in words.
+    pub example: Option<String>,
+}
+
+impl Tally {
+    /// How much is wrong.
+    pub fn errors(&self) -> u64 {
+        self.by_kind().iter().sum()
+    }
+
+    /// The errors, each kind on its own.
+    pub fn by_kind(&self) -> [u64; 7] {
+        [
+            self.lost,
+            self.phantom,
+            self.miscounted,
+            self.disordered,
+            self.duplicate,
+            self.numbers,
+            self.differing,
+        ]
+    }
+
+    /// Both together.
+    #[must_use]
+    pub fn and(self, other: Self) -> Self {
+        Self {
+            rays: self.rays + other.rays,
+            crossing: self.crossing + other.crossing,
+            close: self.close + other.close,
+            oracle: self.oracle + other.oracle,
+            lost: self.lost + other.lost,
+            phantom: self.phantom + other.phantom,
+            miscounted: self.miscounted + other.miscounted,
+            disordered: self.disordered + other.disordered,
+            duplicate: self.duplicate + other.duplicate,
+            numbers: self.numbers + other.numbers,
+            differing: self.differing + other.differing,
+            example: self.example.or(other.example),
+        }
+    }
+
+    /// Notes what is wrong, if it is the first.
+    pub(super) fn tell(&mut self, ray: &Ray, what: impl FnOnce() -> String) {
+        self.example.get_or_insert_with(|| format!("{ray:?}: {}", what()));
+    }
+}

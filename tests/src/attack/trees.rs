@@ -1,0 +1,100 @@
+//! Whether trees and hits are the same to the last byte, however many threads there are and however often.
+
+use super::settings;
+use super::verdict::bits;
+use kdray::{BuildOptions, Hit, InstructionSet, Ray, Scene, TriangleMesh};
+use rayon::ThreadPoolBuilder;
+use std::fmt::{self, Write};
+use std::hash::{DefaultHasher, Hash, Hasher};
+
+/// How many threads are tried, each with a build of its own; one of them twice.
+const THREADS: [usize; 4] = [1, 2, 3, 1];
+
+/// Trees of more triangles take too long to be built so often, and the wide ones to be written as text.
+const FEW: usize = 20_000;
+
+/// With how many of the settings trees of so many triangles are built again and again.
+pub fn settings_tried(triangles: usize) -> u64 {
+    if triangles <= FEW { settings::NAMES.len() as u64 } else { 2 }
+}
+
+/// Builds and traces with all numbers of threads and all instruction sets; how many did not give what the
+/// first gave, and how many there were.
+///
+/// # Panics
+/// If a build is refused, or threads cannot be started.
+pub fn differing(mesh: &TriangleMesh, options: &BuildOptions, rays: &[Ray]) -> (u64, u64) {
+    let mut prints = Vec::new();
+    for threads in THREADS {
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.expect("threads can be started").install(|| {
+            let scene = Scene::build(mesh.clone(), options).expect("targets are valid");
+            let tree = fingerprint_of_tree(&scene);
+            for set in InstructionSet::available() {
+                let scene = scene.clone().with_instructions(set);
+                prints.push((tree, fingerprint_of_hits(&scene, rays)));
+            }
+        });
+    }
+    let differ = prints.iter().filter(|&print| *print != prints[0]).count();
+    (differ as u64, prints.len() as u64)
+}
+
+/// A hash of all bytes of both trees.
+fn fingerprint_of_tree(scene: &Scene) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    let tree = scene.tree();
+    for corner in [tree.bounds().min, tree.bounds().max] {
+        corner.map(f32::to_bits).hash(&mut hasher);
+    }
+    for (index, node) in tree.nodes().iter().enumerate() {
+        // A node's text has all its bits: splits are finite, and zeros are written with their signs.
+        let _ = write!(Text(&mut hasher), "{:?}", node.kind());
+        tree.leaf_primitives(index as u32).hash(&mut hasher);
+    }
+    if scene.mesh().triangles().len() <= FEW {
+        let _ = write!(Text(&mut hasher), "{:?}", scene.wide_tree());
+    }
+    hasher.finish()
+}
+
+fn fingerprint_of_hits(scene: &Scene, rays: &[Ray]) -> u64 {
+    let (mut closest, mut any) = (vec![None; rays.len()], vec![false; rays.len()]);
+    scene.par_closest_hits(rays, &mut closest);
+    scene.par_any_hits(rays, &mut any);
+    let mut hasher = DefaultHasher::new();
+    closest
+        .iter()
+        .map(|hit: &Option<Hit>| hit.as_ref().map(bits))
+        .for_each(|it| it.hash(&mut hasher));
+    any.hash(&mut hasher);
+    hasher.finish()
+}
+
+/// Hashes what is written.
+struct Text<'a>(&'a mut DefaultHasher);
+
+impl fmt::Write for Text<'_> {
+    fn write_str(&mut self, text: &str) -> fmt::Result {
+        self.0.write(text.as_bytes());
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::meshes;
+
+    #[test]
+    fn other_trees_have_other_fingerprints() {
+        let print = |mesh: TriangleMesh| {
+            fingerprint_of_tree(&Scene::build(mesh, &BuildOptions::default()).unwrap())
+        };
+        let mut soup = meshes::soup(200, [0.0; 3], 1.0, 1);
+        let first = print(meshes::mesh(soup.clone()));
+        assert_eq!(print(meshes::mesh(soup.clone())), first);
+        soup[7][0][1] = soup[7][0][1].next_up();
+        assert_ne!(print(meshes::mesh(soup)), first);
+    }
+}

@@ -1,0 +1,219 @@
+//! The hits of a ray, found without kdray: its trees, boxes, filters and exact arithmetic are not used.
+//!
+//! Spheres leave out what is far from the line ([`Flat`]). Of the other triangles, signs of plain edge
+//! functions in f64 tell most, with a bound that is far wider than rounding; the rest are put to the oracle
+//! in rational arithmetic, by both rules.
+
+use crate::flat::Flat;
+use crate::oracle::exact_triangle_hit;
+use glam::{DVec3, Vec3Swizzles};
+use kdray::primitives::HitRule;
+use kdray::{Interval, Ray};
+use num_traits::{Signed, ToPrimitive};
+
+/// An edge function, or a volume, of six products has fewer than ten roundings, each at most 2^-53 of the
+/// sum of the absolute values of its terms.
+const ROUNDINGS: f64 = 16.0 / (1_u64 << 53) as f64;
+
+/// The relative error of t that is still good enough.
+const T_ERROR: f64 = 1.0 / (1_u64 << 40) as f64;
+
+/// What kdray's t may differ by: its documented 2^-39, and the error here.
+const T_TOLERANCE: f64 = 1.0 / (1_u64 << 38) as f64;
+
+/// All hits on the whole line of a ray, by rising id.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Truth {
+    /// By [`HitRule::Touching`].
+    pub touched: Vec<TrueHit>,
+    /// By [`HitRule::Crossing`].
+    pub crossed: Vec<TrueHit>,
+    /// Whether the line meets an edge or a vertex, or so nearly that the oracle was asked.
+    pub is_close: bool,
+}
+
+/// A hit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TrueHit {
+    /// The triangle.
+    pub id: u32,
+    /// The ray's parameter, good to a relative 2^-40; its sign is right.
+    pub t: f64,
+}
+
+/// How a hit lies to an interval.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// In it.
+    Inside,
+    /// So near to an end that kdray's t may be on either side.
+    AtEnd,
+    /// Not in it.
+    Outside,
+}
+
+impl Truth {
+    /// The truth about `ray` and the triangles of `flat`.
+    pub fn of(flat: &Flat, ray: &Ray) -> Self {
+        let mut truth = Self::default();
+        if ray.check().is_err() {
+            return truth;
+        }
+        flat.each_candidate(ray, |corners, id| truth.look_at(corners, id, ray));
+        truth.touched.sort_by_key(|hit| hit.id);
+        truth.crossed.sort_by_key(|hit| hit.id);
+        truth
+    }
+
+    fn look_at(&mut self, corners: &[[f32; 3]; 3], id: u32, ray: &Ray) {
+        match Glance::at(corners, ray) {
+            Glance::Missed => {}
+            Glance::Hit(t) => {
+                self.touched.push(TrueHit { id, t });
+                self.crossed.push(TrueHit { id, t });
+            }
+            Glance::Unclear => {
+                self.is_close = true;
+                self.touched.extend(exactly(corners, id, ray, HitRule::Touching));
+                self.crossed.extend(exactly(corners, id, ray, HitRule::Crossing));
+            }
+        }
+    }
+
+    /// How many crossings surely lie in the interval, and how many may.
+    pub fn count(&self, interval: Interval) -> (usize, usize) {
+        let at = |place| self.crossed.iter().filter(|hit| hit.place(interval) == place).count();
+        let surely = at(Place::Inside);
+        (surely, surely + at(Place::AtEnd))
+    }
+}
+
+impl TrueHit {
+    /// Whether a t that kdray found is this hit's.
+    pub fn is_at(&self, t: f64) -> bool {
+        (t - self.t).abs() <= self.tolerance()
+    }
+
+    /// Whether this hit surely comes before another.
+    pub fn precedes(&self, other: &Self) -> bool {
+        self.t + self.tolerance() < other.t - other.tolerance()
+    }
+
+    /// How it lies to an interval. An end of zero leaves no doubt, for signs are exact.
+    pub fn place(&self, interval: Interval) -> Place {
+        let at = |end: f64| end != 0.0 && self.is_at(end);
+        if interval.is_empty() {
+            Place::Outside
+        } else if self.t.abs() > 1e308 || at(interval.t_min) || at(interval.t_max) {
+            Place::AtEnd
+        } else if interval.contains(self.t) {
+            Place::Inside
+        } else {
+            Place::Outside
+        }
+    }
+
+    fn tolerance(&self) -> f64 {
+        T_TOLERANCE * self.t.abs() + f64::from_bits(4)
+    }
+}
+
+/// The oracle's answer.
+fn exactly(corners: &[[f32; 3]; 3], id: u32, ray: &Ray, rule: HitRule) -> Option<TrueHit> {
+    let exact = exact_triangle_hit(corners, id, ray, rule)?;
+    let t = exact.t.to_f64().unwrap_or(f64::INFINITY);
+    // What is nearer to zero than the smallest f64 keeps its sign.
+    let smallest = f64::from_bits(1);
+    let t = match (t == 0.0, exact.t.is_positive(), exact.t.is_negative()) {
+        (true, true, _) => smallest,
+        (true, _, true) => -smallest,
+        _ => t,
+    };
+    Some(TrueHit { id, t })
+}
+
+/// What f64 tells of a ray and a triangle.
+enum Glance {
+    Missed,
+    Hit(f64),
+    Unclear,
+}
+
+impl Glance {
+    /// The edge function of (p, q) is d · ((p − o) x (q − p)); they sum to d · n with n = ab x ac.
+    fn at(corners: &[[f32; 3]; 3], ray: &Ray) -> Self {
+        let [a, b, c] = corners.map(|p| DVec3::from(p.map(f64::from)));
+        let (o, d) = (DVec3::from(ray.origin), DVec3::from(ray.direction));
+        let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
+        let (mut surely_below, mut surely_above) = (true, true);
+        let (mut some_below, mut some_above) = (false, false);
+        for (p, q) in [(a, b), (b, c), (c, a)] {
+            let Some((value, error)) = triple(p - o, q - p, d) else { return Self::Unclear };
+            (least, most) = (least.min(value), most.max(value));
+            some_below |= value < -error;
+            some_above |= value > error;
+            surely_below &= value < -error;
+            surely_above &= value > error;
+        }
+        if some_below && some_above {
+            return Self::Missed;
+        }
+        if !surely_below && !surely_above {
+            return Self::Unclear;
+        }
+        let (along, from_origin) = (triple(b - a, c - a, d), triple(b - a, c - a, a - o));
+        let (Some((den, den_error)), Some((volume, error))) = (along, from_origin) else {
+            return Self::Unclear;
+        };
+        let good = den_error / den.abs() + error / volume.abs() < T_ERROR;
+        let t = volume / den;
+        if good && (1e-290..1e290).contains(&t.abs()) { Self::Hit(t) } else { Self::Unclear }
+    }
+}
+
+/// (x × y) · z and a bound of its error, or `None` where products may leave the range of f64.
+fn triple(x: DVec3, y: DVec3, z: DVec3) -> Option<(f64, f64)> {
+    let value = x.cross(y).dot(z);
+    let (p, q, r) = (x.abs(), y.abs(), z.abs());
+    let terms = (p.yzx() * q.zxy() + p.zxy() * q.yzx()).dot(r);
+    let product = p.max_element() * q.max_element();
+    let in_range = |x: f64| (1e-200..1e300).contains(&x);
+    let is_sound = in_range(product) && in_range(product * r.max_element());
+    // What underflow takes of smaller terms.
+    let vanished = 1e-320 * (1.0 + r.max_element());
+    is_sound.then_some((value, ROUNDINGS * terms + vanished))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::meshes::{boxes, mesh, sphere};
+    use crate::rays::Archer;
+
+    #[test]
+    fn a_glance_agrees_with_the_oracle_where_it_tells() {
+        for mesh in [sphere(6), mesh(boxes(2))] {
+            for ray in Archer::new(&mesh, 5).all_kinds(20, 1e6) {
+                for id in 0..mesh.triangles().len() as u32 {
+                    let corners = mesh.corners(id);
+                    let exact = exactly(&corners, id, &ray, HitRule::Touching);
+                    match Glance::at(&corners, &ray) {
+                        Glance::Missed => assert_eq!(exact, None, "{ray:?} {id}"),
+                        Glance::Hit(t) => assert!(exact.unwrap().is_at(t), "{ray:?} {id}"),
+                        Glance::Unclear => {}
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_vertex_is_touched_by_all_and_crossed_by_one() {
+        let flat = Flat::new(&mesh(boxes(1)));
+        let truth = Truth::of(&flat, &Ray::new([-2.0; 3], [1.0; 3]));
+        assert!(truth.touched.len() > truth.crossed.len() && truth.is_close);
+        assert_eq!(truth.count(Interval::FORWARD), (2, 2));
+        assert_eq!(truth.count(Interval { t_min: 0.0, t_max: 2.5 }), (1, 1));
+        assert_eq!(truth.count(Interval { t_min: 2.0, t_max: 9.0 }), (1, 2));
+    }
+}
