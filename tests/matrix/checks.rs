@@ -6,7 +6,7 @@ use kdray::simd::UnknownInstructionSet;
 use kdray::traverse::Naive;
 use kdray::{
     BuildOptions, CostModel, Hint, Hit, InstructionSet, KdTree, Precision, Ray, Scene, ShapeScene,
-    TriangleMesh,
+    Side, TriangleMesh,
 };
 use kdray_tests::Subject;
 use kdray_tests::oracle::{agrees_on_all, agrees_on_closest};
@@ -188,6 +188,25 @@ pub(crate) fn kernel_closest_hit<T: Precision>(
         let naive = aimed.touched.naive.first().copied();
         same(&scene.closest_hit(ray), &naive).map_err(|error| format!("{ray:?}: {error}"))?;
         same(&in_batch, &naive).map_err(|error| format!("{ray:?} in a batch: {error}"))?;
+    }
+    Ok(())
+}
+
+/// The kernels' crossings, in order: of one ray after the other, and of all in a batch.
+pub(crate) fn kernel_all_hits<T: Precision>(
+    scene: &Scene<T>,
+    aimed: &[&Aimed<3>],
+) -> Result<(), String> {
+    let rays: Vec<_> = aimed.iter().map(|aimed| aimed.ray).collect();
+    let mut batch = vec![Vec::new(); rays.len()];
+    scene.each_all_hits(&rays, |index, hits| batch[index] = hits);
+    let mut hits = vec![Hit { t: 0.0, primitive_id: 0, u: 0.0, v: 0.0, side: Side::Front }];
+    for ((aimed, ray), in_batch) in aimed.iter().zip(&rays).zip(batch) {
+        let naive = &aimed.crossed.naive;
+        scene.all_hits_into(ray, &mut hits);
+        same(&hits, naive).map_err(|error| format!("{ray:?}: {error}"))?;
+        same(&in_batch, naive).map_err(|error| format!("{ray:?} in a batch: {error}"))?;
+        same(&scene.count(ray), &naive.len())?;
     }
     Ok(())
 }

@@ -12,7 +12,7 @@ mod ray_packets;
 
 use cases::{BALLS_2D, BALLS_3D, SEGMENTS, TRIANGLES, TRIANGLES_F64};
 use checks::{all_hits, all_touched, any_hit, closest_hit, count};
-use checks::{kernel_any_hit, kernel_any_hit_near, kernel_closest_hit};
+use checks::{kernel_all_hits, kernel_any_hit, kernel_any_hit_near, kernel_closest_hit};
 use kdray::build::SahBuilder;
 use kdray::traverse::PacketKind;
 use kdray::{BuildOptions, Preset, Strategy};
@@ -51,6 +51,12 @@ macro_rules! kernels {
                     fn closest_hit() {
                         let set = stringify!($instructions);
                         checks::on_each_mesh(&options(), &$cases, set, kernel_closest_hit);
+                    }
+
+                    #[test]
+                    fn all_hits() {
+                        let set = stringify!($instructions);
+                        checks::on_each_mesh(&options(), &$cases, set, kernel_all_hits);
                     }
 
                     #[test]

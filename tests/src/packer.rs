@@ -29,7 +29,7 @@ impl<'a, T: Coordinate> Packer<'a, T> {
     }
 
     /// The same at a mesh whose bounds are known.
-    pub fn within(mesh: &'a TriangleMesh, bounds: Aabb<3>, aimed: &'a [Ray], seed: u64) -> Self {
+    pub fn within(mesh: &'a TriangleMesh<T>, bounds: Aabb<3>, aimed: &'a [Ray], seed: u64) -> Self {
         Self { archer: Archer::within(mesh, bounds, seed), aimed, random: random(seed) }
     }
 

@@ -56,14 +56,14 @@ impl Lists {
     }
 }
 
-/// kdray's `all_hits`.
+/// kdray's `all_hits_into`.
 pub(super) fn kdray(mesh: &TriangleMesh, rays: &[Ray]) -> Result<Lists, BenchError> {
     let scene = Scene::build(mesh.clone(), &BuildOptions::default())?;
     let rays: Vec<kdray::Ray> = rays.iter().map(exact_ray).collect();
+    let mut hits = Vec::new();
     Ok(Lists::traced(&rays, |ray, lists| {
-        for hit in scene.all_hits(ray) {
-            lists.push(hit.t as f32, hit.primitive_id);
-        }
+        scene.all_hits_into(ray, &mut hits);
+        hits.iter().for_each(|hit| lists.push(hit.t as f32, hit.primitive_id));
     }))
 }
 

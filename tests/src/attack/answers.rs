@@ -1,4 +1,4 @@
-//! What kdray says of a volley: every query of the leaf walk, and closest and any hits by every kernel.
+//! What kdray says of a volley: every query of the leaf walk, and closest, any and all hits by every kernel.
 
 use super::Volley;
 use crate::flat::Flat;
@@ -93,6 +93,12 @@ fn one_by_one(scene: &Scene, rays: &[Ray], add: &mut impl FnMut(&str, Said)) {
     let closest = rays.iter().map(|ray| scene.closest_hit(ray)).collect();
     add("single, closest hit", Said::Closest(closest));
     add("single, any hit", Said::Any(rays.iter().map(|ray| scene.any_hit(ray)).collect()));
+    let all = |ray| {
+        let mut hits = Vec::new();
+        scene.all_hits_into(ray, &mut hits);
+        hits
+    };
+    add("single, all hits", Said::All(HitRule::Crossing, rays.iter().map(all).collect()));
     let hinted: Vec<_> = rays.iter().map(|ray| scene.closest_hit_with_hint(ray)).collect();
     let closest = hinted.iter().map(|found| found.map(|(hit, _)| hit)).collect();
     add("single, closest hit with a hint", Said::Closest(closest));
@@ -112,6 +118,9 @@ fn in_batches(scene: &Scene, rays: &[Ray], add: &mut impl FnMut(&str, Said)) {
     scene.any_hits(rays, &mut any);
     add("batch, closest hit", Said::Closest(closest));
     add("batch, any hit", Said::Any(any));
+    let mut all = vec![Vec::new(); rays.len()];
+    scene.each_all_hits(rays, |index, hits| all[index] = hits);
+    add("batch, all hits", Said::All(HitRule::Crossing, all));
 }
 
 fn in_packets(scene: &Scene, volley: &Volley, add: &mut impl FnMut(&str, Said)) {

@@ -104,7 +104,7 @@ impl<T: Precision> Scene<T> {
 
     /// Searches along each of `rays`: in turns, which was faster on trees of every size, unless they
     /// are so few that to begin with turns takes longer (measured: docs/decisions/0011).
-    fn each<'a, Q: Search<'a, Coordinate = T>>(
+    pub(super) fn each<'a, Q: Search<'a, Coordinate = T>>(
         &'a self,
         rays: impl IntoIterator<Item: Start>,
         one: impl Fn(&Ray) -> Q::Answer,

@@ -1,5 +1,6 @@
 //! The public face: scenes that answer queries.
 
+mod all_hits;
 mod arithmetic;
 mod batch;
 mod closest_point;

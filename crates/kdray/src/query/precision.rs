@@ -27,6 +27,8 @@ pub trait Precision: Coordinate {
     #[doc(hidden)]
     fn any_hit(scene: &Scene<Self>, ray: &Ray) -> bool;
     #[doc(hidden)]
+    fn all_hits_into(scene: &Scene<Self>, ray: &Ray, hits: &mut Vec<Hit>);
+    #[doc(hidden)]
     fn closest_hit_with_hint(scene: &Scene<Self>, ray: &Ray) -> Option<(Hit, Hint)>;
     #[doc(hidden)]
     fn any_hit_near(scene: &Scene<Self>, ray: &Ray, hint: Hint) -> bool;
@@ -68,6 +70,10 @@ macro_rules! compile_for {
 
                 fn any_hit(scene: &Scene<Self>, ray: &Ray) -> bool {
                     scene.find_any_hit(ray)
+                }
+
+                fn all_hits_into(scene: &Scene<Self>, ray: &Ray, hits: &mut Vec<Hit>) {
+                    scene.find_all_hits(ray, hits);
                 }
 
                 fn closest_hit_with_hint(scene: &Scene<Self>, ray: &Ray) -> Option<(Hit, Hint)> {

@@ -148,6 +148,7 @@ impl<T: Precision> Scene<T> {
 
     /// Every crossing of a surface, once, by rising t
     /// ([`HitRule::Crossing`](crate::primitives::HitRule::Crossing)), found as they are asked for.
+    /// By the scalar traversal: [`all_hits_into`](Self::all_hits_into) is faster.
     pub fn all_hits(&self, ray: &Ray) -> AllHits<'_, TriangleMesh<T>, 3> {
         self.trees.shapes.all_hits(ray)
     }
@@ -157,13 +158,6 @@ impl<T: Precision> Scene<T> {
     /// triangles.
     pub fn all_touched(&self, ray: &Ray) -> AllHits<'_, TriangleMesh<T>, 3> {
         self.trees.shapes.all_touched(ray)
-    }
-
-    /// How many surfaces the ray crosses: the number of [`all_hits`](Self::all_hits). On a closed
-    /// mesh it is even for a ray from outside without end, and odd for one from inside.
-    #[must_use]
-    pub fn count(&self, ray: &Ray) -> usize {
-        self.trees.shapes.count(ray)
     }
 }
 

@@ -37,7 +37,7 @@ impl<'a, T: Coordinate, const EXACT: bool> Search<'a> for Any<'a, T, EXACT> {
     }
 
     #[inline(always)]
-    fn answer(&self, answer: &mut bool) {
+    fn answer(&mut self, answer: &mut bool) {
         *answer = self.is_hit;
     }
 }

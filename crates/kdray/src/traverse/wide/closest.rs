@@ -51,7 +51,7 @@ impl<'a, T: Coordinate, const EXACT: bool> Search<'a> for Closest<'a, T, EXACT> 
     }
 
     #[inline(always)]
-    fn answer(&self, answer: &mut Option<Hit>) {
+    fn answer(&mut self, answer: &mut Option<Hit>) {
         *answer = match self.noted {
             Some((block, lane)) => self.compute(block, lane),
             None => self.best,

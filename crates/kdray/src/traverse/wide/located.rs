@@ -36,7 +36,7 @@ impl<'a, T: Coordinate, const EXACT: bool> Search<'a> for Located<'a, T, EXACT> 
     }
 
     #[inline(always)]
-    fn answer(&self, answer: &mut Self::Answer) {
+    fn answer(&mut self, answer: &mut Self::Answer) {
         let mut hit = None;
         self.closest.answer(&mut hit);
         if let Some(hit) = hit {

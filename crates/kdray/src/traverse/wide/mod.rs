@@ -6,6 +6,7 @@
 //! decides. So hits are the same to the last bit as those of every other traversal.
 
 mod aim;
+mod all;
 mod any;
 mod batch;
 mod block;
@@ -25,6 +26,7 @@ mod stacks;
 mod start;
 mod vector;
 
+pub(crate) use all::All;
 pub(crate) use any::Any;
 pub(crate) use batch::search_along_each;
 pub(crate) use closest::Closest;

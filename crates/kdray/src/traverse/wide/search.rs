@@ -25,7 +25,7 @@ pub(crate) trait Search<'a>: Sized {
     fn visit<S: Lanes>(&mut self, simd: S, block: &'a TriangleBlock, aim: &mut Aim) -> bool;
 
     /// Sets the answer to what was found.
-    fn answer(&self, answer: &mut Self::Answer);
+    fn answer(&mut self, answer: &mut Self::Answer);
 }
 
 /// The triangle in a lane of a block, as it is in the mesh. Copies in blocks are rounded if the mesh does
