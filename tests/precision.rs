@@ -69,8 +69,9 @@ fn trees_over_f64_are_wide_for_meshes_of_any_size() {
     for scale in [1e-300, 1e-20, 1.0, 1e20, 1e300] {
         let scene = scene(mesh(placed(&soup(200, [0.0; 3], 1.0, 78), scale, [0.0; 3])));
         assert!(scene.wide_tree().is_some(), "{scale}");
-        let origin = [0.1 * scale, 0.2 * scale, -9.0 * scale];
-        let ray = Ray::new(origin, [0.0, 0.0, scale]);
+        let [a, b, c] = scene.mesh().corners(5);
+        let middle = [0, 1, 2].map(|k| 0.3 * a[k] + 0.3 * b[k] + 0.4 * c[k]);
+        let ray = Ray::through([9.0 * scale, 0.2 * scale, -3.0 * scale], middle);
         assert_eq!(scene.closest_hit(&ray), scene.shapes().naive().closest_hit(&ray), "{scale}");
         assert!(scene.any_hit(&ray), "{scale}");
     }

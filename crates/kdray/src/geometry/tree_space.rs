@@ -14,7 +14,7 @@ use super::{Coordinate, Ray};
 /// A ray's origin is moved by u times its distance from the centre on an axis. Up to a distance of 4
 /// that is 4 u; from farther it is less than 2 u of the way to anything in the tree, and so a relative
 /// error of t, for which the walk has slack (see `slack.rs`). So a point at which a ray meets a triangle
-/// lies within [`ERROR`](Self::ERROR), which is 64 u, of the triangle as the tree sees it.
+/// lies within 2^-47, which is 64 u, of the triangle as the tree sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TreeSpace {
     center: [f64; 3],
