@@ -15,7 +15,7 @@ const RAYS: u64 = 6_000;
 const RAYS_AT_SCENES: u64 = 3_000;
 
 /// Scenes of at most so many triangles are shot at.
-const SMALL: usize = 6_500;
+const SMALL: usize = 2_000;
 
 fn outcomes(
     targets: Vec<Target>,
