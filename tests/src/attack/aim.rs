@@ -1,8 +1,9 @@
 //! Where volleys come from and go to. All are seeded: the same on every run.
 
 use super::{Target, Truth, Volley, volley::SIZE};
+use crate::Subject;
 use crate::flat::Flat;
-use crate::rays::{Archer, random, rounded};
+use crate::rays::{Archer, random};
 use crate::{OwnedPacket, Packer};
 use kdray::geometry::Common;
 use kdray::{Interval, Ray, Scene};
@@ -66,7 +67,8 @@ impl<'a> Gunner<'a> {
         if target.is_closed {
             let mut archer = Archer::within(&target.mesh, target.bounds, seed);
             let places =
-                std::iter::repeat_with(|| archer.around(0.0).map(rounded)).take(20 * INSIDE);
+                std::iter::repeat_with(|| archer.around(0.0).map(|x| target.mesh.rounded(x)))
+                    .take(20 * INSIDE);
             let mut random = random(seed);
             let inside = places.filter(|&place| is_inside(flat, place, &mut random));
             gunner.inside = inside.take(INSIDE).collect();
@@ -189,7 +191,7 @@ impl<'a> Gunner<'a> {
         let distance = [0.51, 0.75, 1.0, 2.0, 10.0][random.random_range(0..5)];
         let sign = if random.random() { 1.0 } else { -1.0 };
         point[axis] = center[axis] + sign * distance * bounds.diagonal();
-        point.map(rounded)
+        point.map(|x| self.target.mesh.rounded(x))
     }
 
     /// The direction, or one along an axis, in a plane of two axes, or longer or shorter.
