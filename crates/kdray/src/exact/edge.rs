@@ -1,6 +1,7 @@
 //! Edge functions, exactly.
 
 use super::Accumulator;
+use super::lattice::on_lattice;
 use crate::geometry::Ray;
 use std::cmp::Ordering;
 
@@ -13,6 +14,24 @@ pub fn edge_function(ray: &Ray<3>, p: [f64; 3], q: [f64; 3]) -> Accumulator {
         add_triple_product(&mut sum, d, a, b);
     }
     sum
+}
+
+/// The sign of [`edge_function`].
+pub fn edge_sign(ray: &Ray<3>, p: [f64; 3], q: [f64; 3]) -> Ordering {
+    let in_integers = || {
+        let d = on_lattice(ray.direction)?.map(i128::from);
+        let [p, q] = around_origin(ray.origin, p, q)?;
+        let minor = |i: usize, j: usize| q[i] * p[j] - q[j] * p[i];
+        Some(d[0] * minor(1, 2) + d[1] * minor(2, 0) + d[2] * minor(0, 1))
+    };
+    in_integers().map_or_else(|| edge_function(ray, p, q).sign(), |sum| sum.cmp(&0))
+}
+
+/// p' and q' in the same integer proportions; `None` if the numbers have too many digits.
+fn around_origin(o: [f64; 3], p: [f64; 3], q: [f64; 3]) -> Option<[[i128; 3]; 2]> {
+    let all = on_lattice([o[0], o[1], o[2], p[0], p[1], p[2], q[0], q[1], q[2]])?;
+    let from_origin = |first: usize| [0, 1, 2].map(|k| i128::from(all[first + k] - all[k]));
+    Some([from_origin(3), from_origin(6)])
 }
 
 /// T = −a' · (b' x c'), six times the volume that the triangle spans with the ray's origin.
@@ -44,7 +63,11 @@ pub fn turned_edge_sign(ray: &Ray<3>, p: [f64; 3], q: [f64; 3], sign: Ordering) 
     if sign != Ordering::Equal {
         return oriented(sign, ray.direction[k]);
     }
-    let component = |plane| cross_component(ray.origin, q, p, plane).sign();
+    let in_integers = around_origin(ray.origin, p, q);
+    let component = |(i, j): (usize, usize)| match &in_integers {
+        Some([p, q]) => (q[i] * p[j]).cmp(&(q[j] * p[i])),
+        None => cross_component(ray.origin, q, p, (i, j)).sign(),
+    };
     component((v, k)).then_with(|| component((k, u)))
 }
 
@@ -125,6 +148,32 @@ mod tests {
         }
         let on_the_ray = ([0.0, 0.0, 1.0], [0.0, 0.0, 4.0]);
         assert_eq!(turned_edge_sign(&RAY, on_the_ray.0, on_the_ray.1, equal), equal);
+    }
+
+    proptest::proptest! {
+        /// Numbers of a few bits, whose signs are often zero, and of all, which have no lattice.
+        #[test]
+        fn the_sign_is_that_of_the_sum(
+            numbers in proptest::array::uniform12(-9_i32..10),
+            scales in proptest::array::uniform2(-30_i32..30),
+            more in proptest::option::of(0_usize..12),
+        ) {
+            let mut all = numbers.map(f64::from);
+            all[..3].iter_mut().for_each(|x| *x *= 2.0_f64.powi(scales[0]));
+            all[3..].iter_mut().for_each(|x| *x *= 2.0_f64.powi(scales[1]));
+            if let Some(place) = more {
+                all[place] += 2.0_f64.powi(-60);
+            }
+            let [d, o, p, q] = [0, 3, 6, 9].map(|i| [all[i], all[i + 1], all[i + 2]]);
+            let ray = Ray::new(o, d);
+            let sign = edge_function(&ray, p, q).sign();
+            proptest::prop_assert_eq!(edge_sign(&ray, p, q), sign);
+            let (k, equal) = (main_axis(&d), Ordering::Equal);
+            let (u, v) = ((k + 1) % 3, (k + 2) % 3);
+            let component = |plane| cross_component(o, q, p, plane).sign();
+            let turned = component((v, k)).then_with(|| component((k, u)));
+            proptest::prop_assert_eq!(turned_edge_sign(&ray, p, q, equal), turned);
+        }
     }
 
     #[test]

@@ -22,6 +22,7 @@
 
 mod accumulator;
 mod edge;
+mod lattice;
 mod on_triangle;
 mod plane_side;
 mod segment;
@@ -29,7 +30,8 @@ mod segment;
 pub(crate) use accumulator::not_vanished;
 pub use accumulator::{Accumulator, Scaled};
 pub use edge::{
-    cross_component, edge_function, side_of_ray, turned_edge_sign, turned_side_sign, volume,
+    cross_component, edge_function, edge_sign, side_of_ray, turned_edge_sign, turned_side_sign,
+    volume,
 };
 pub use on_triangle::is_on_triangle;
 pub use plane_side::side_of_plane;

@@ -1,7 +1,7 @@
 //! The ray–triangle test: a filter in f64, and exact arithmetic where the filter cannot tell.
 
 use super::{Hit, HitRule, Side};
-use crate::exact::{self, Scaled, edge_function, not_vanished, turned_edge_sign};
+use crate::exact::{self, Scaled, edge_function, edge_sign, not_vanished, turned_edge_sign};
 use crate::geometry::{Coordinate, Interval, Ray, t_above, t_below};
 use glam::{DVec3, Vec3Swizzles};
 use std::cmp::Ordering;
@@ -154,7 +154,7 @@ fn is_hit_exactly<T: Coordinate>(
         } else if values[i] < -error {
             Ordering::Less
         } else {
-            edge_function(ray, edges[i].0, edges[i].1).sign()
+            edge_sign(ray, edges[i].0, edges[i].1)
         }
     });
     if !share_a_sign(signs) {
