@@ -78,7 +78,7 @@ impl CameraRays {
         &self.rays
     }
 
-    /// Finds the closest hits of all rays, one by one.
+    /// Finds the closest hits of all rays, in a batch.
     pub(crate) fn find_hits(&mut self, scene: &Scene) {
         self.hits.resize(self.rays.len(), None);
         scene.closest_hits(&self.rays, &mut self.hits);

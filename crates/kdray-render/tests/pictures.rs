@@ -37,14 +37,14 @@ fn packets_change_no_picture() {
     add_floor(&mut opaque, 4.0, 0.0, 0);
     add_box(&mut opaque, [-1.0, 0.5, -1.0], [0.5, 1.5, 1.0], 0);
     let all = RenderOptions { all_layers: true, ..small(PictureKind::Shaded) };
-    let one_by_one = RenderOptions { packets: false, ..all.clone() };
+    let in_batches = RenderOptions { packets: false, ..all.clone() };
     let projection = Projection::Orthographic { height: 3.0 };
     let orthographic = Camera { projection, ..camera.clone() };
     lights.push(Light::Directional { direction: [0.3, -1.0, 0.2], irradiance: [0.5; 3] });
     for world in [with_glass, world(opaque)] {
         for camera in [&camera, &orthographic] {
             // Of packets there is a layer as well, whose rays go together in other numbers.
-            let [picture, expected] = [&all, &one_by_one].map(|options| {
+            let [picture, expected] = [&all, &in_batches].map(|options| {
                 let mut layers = shoot(&world, camera, &lights, options).layers;
                 layers.retain(|layer| layer.name != "packet");
                 layers

@@ -50,6 +50,10 @@ fn ask_everything(scene: &Scene, rays: &[Ray]) -> Vec<Option<Hit>> {
         for hit in scene.all_hits(ray).chain(scene.all_touched(ray)).take(1000) {
             scene.mesh().corners(hit.primitive_id);
         }
+        let mut all = Vec::new();
+        scene.all_hits_into(ray, &mut all);
+        let _ = (scene.count(ray), scene.closest_hit_where(ray, |hit| hit.u > 0.5));
+        ask_about_points(scene, ray);
         let hit = scene.closest_hit_with_hint(ray);
         hints.push(hit.map(|(_, hint)| hint).unwrap_or_default());
     }
@@ -63,6 +67,19 @@ fn ask_everything(scene: &Scene, rays: &[Ray]) -> Vec<Option<Hit>> {
     }
     ask_in_packets(scene);
     hits
+}
+
+/// Asks about the points where a ray begins and where it is at t = 1.
+fn ask_about_points(scene: &Scene, ray: &Ray) {
+    let end = [0, 1, 2].map(|k| ray.origin[k] + ray.direction[k]);
+    for point in [ray.origin, end] {
+        let _ = (scene.contains(point), scene.signed_distance(point), scene.winding_number(point));
+        if let Some(nearest) = scene.closest_point(point) {
+            let id = nearest.primitive_id;
+            let _ = scene.thickness(id, nearest.u, nearest.v, kdray::Side::Front);
+        }
+    }
+    let _ = scene.visible(ray.origin, end);
 }
 
 /// Asks for rays that go together.

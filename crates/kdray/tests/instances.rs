@@ -110,18 +110,25 @@ fn copies_are_hit_as_their_triangles_in_one_mesh() {
     assert!(hits > 1000, "{hits}");
 }
 
-/// What is asked of each instance alone gives.
+/// The ray in the space of an instance.
+fn carried(instance: &Instance, ray: &Ray) -> Ray {
+    let column = |k: usize| glam::DVec3::from(instance.to_world.map(|row| row[k]));
+    let to_world = glam::DAffine3::from_cols(column(0), column(1), column(2), column(3));
+    let to_object = to_world.inverse();
+    Ray {
+        origin: to_object.transform_point3(ray.origin.into()).into(),
+        direction: to_object.transform_vector3(ray.direction.into()).into(),
+        interval: ray.interval,
+    }
+}
+
+/// What each geometry says of the carried ray, whether or not the ray meets any box.
 fn naive(scene: &InstancedScene, ray: &Ray) -> Vec<InstanceHit> {
     let alone = |(index, instance): (usize, &Instance)| {
-        let geometry = scene.geometries()[instance.geometry_id as usize].clone();
-        let alone = Instance { geometry_id: 0, ..*instance };
-        let scene = InstancedScene::build(vec![geometry], vec![alone]).unwrap();
-        let found = scene.all_touched(ray).map(|found| InstanceHit {
-            instance_id: index as u32,
-            geometry_id: instance.geometry_id,
-            ..found
-        });
-        found.collect::<Vec<_>>()
+        let geometry = &scene.geometries()[instance.geometry_id as usize];
+        let found =
+            |hit| InstanceHit { hit, instance_id: index as u32, geometry_id: instance.geometry_id };
+        geometry.all_touched(&carried(instance, ray)).map(found).collect::<Vec<_>>()
     };
     let mut all: Vec<_> = scene.instances().iter().enumerate().flat_map(alone).collect();
     all.sort_by(InstanceHit::order);
@@ -132,15 +139,26 @@ fn naive(scene: &InstancedScene, ray: &Ray) -> Vec<InstanceHit> {
 fn any_matrix_gives_what_each_copy_gives_alone() {
     let mut random = Pcg64Mcg::seed_from_u64(2);
     let geometries = vec![scene(cube()), scene(shards(30, &mut random))];
-    let instances: Vec<Instance> = (0..25)
+    let instances: Vec<Instance> = (0..40)
         .map(|i| {
-            let row = |_| [(); 4].map(|()| random.random_range(-2.0..2.0));
+            // Every second one is squeezed towards a line, as much as is not refused.
+            let squeezed = if i % 4 < 2 { 1e-4 } else { 1.0 };
+            let axis = [(); 3].map(|()| random.random_range(-1.0..1.0));
+            let row = |k: usize| {
+                let along: [f64; 3] = axis.map(|a| 2.0 * a * axis[k]);
+                let [x, y, z] = along.map(|a| a + squeezed * random.random_range(-1.0..1.0));
+                [x, y, z, random.random_range(-2.0..2.0)]
+            };
             Instance::of(i % 2).placed([0, 1, 2].map(row))
         })
         .collect();
     let scene = InstancedScene::build(geometries, instances).unwrap();
-    for _ in 0..1000 {
-        let ray = random_ray(&mut random, 8.0);
+    for round in 0..2000 {
+        let mut ray = random_ray(&mut random, 8.0);
+        if round % 4 == 0 {
+            let back = ray.direction.map(|d| 1e3 * d);
+            ray.origin = [0, 1, 2].map(|k| ray.origin[k] - back[k]);
+        }
         let expected = naive(&scene, &ray);
         assert_eq!(scene.all_touched(&ray).collect::<Vec<_>>(), expected);
         assert_eq!(scene.closest_hit(&ray).as_ref(), expected.first());

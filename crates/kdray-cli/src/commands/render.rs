@@ -71,7 +71,7 @@ struct QualityArgs {
     /// Chooses the random numbers: the same seed gives the same picture
     #[arg(long, value_name = "N", default_value_t = RenderOptions::default().seed)]
     seed: u64,
-    /// Trace all rays one by one: the same picture, to compare the time
+    /// Trace no rays in packets: the same picture, to compare the time
     #[arg(long)]
     no_packets: bool,
     /// The colour behind everything, linear RGB; without it a sky

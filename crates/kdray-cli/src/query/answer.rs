@@ -155,7 +155,11 @@ impl Answerer {
 
     fn all_hits(&self, ray: &Ray) -> Vec<Hit> {
         match self {
-            Self::Tree(scene) => scene.all_hits(ray).collect(),
+            Self::Tree(scene) => {
+                let mut hits = Vec::new();
+                scene.all_hits_into(ray, &mut hits);
+                hits
+            }
             Self::Naive(mesh, bounds) => Naive::new(mesh, *bounds).all_hits(ray, HitRule::Crossing),
         }
     }

@@ -1,6 +1,6 @@
 //! Rays towards light, gathered to be answered together.
 
-use super::shadow::{in_packets, one_by_one};
+use super::shadow::{in_batch, in_packets};
 use crate::bundle::Bundle;
 use crate::light::Lamp;
 use crate::world::World;
@@ -20,7 +20,7 @@ pub(crate) struct LightRays {
     /// The share of light that comes through along the rays that are answered.
     through: Vec<Vec3>,
     packets: Option<Packets>,
-    /// The places of the rays that are answered one by one.
+    /// The places of the rays that are answered in a batch.
     alone: Vec<usize>,
 }
 
@@ -51,7 +51,7 @@ struct Packets {
     bundle: Bundle,
 }
 
-/// Fewer rays to a lamp are answered one by one.
+/// Fewer rays to a lamp are answered in a batch with all others.
 const LEAST: usize = 64;
 
 impl LightRays {
@@ -90,7 +90,7 @@ impl LightRays {
             }
             _ => alone.extend(0..rays.len()),
         }
-        one_by_one(world, rays, alone, through);
+        in_batch(world, rays, alone, through);
     }
 
     /// The light that comes along these rays, which are answered.

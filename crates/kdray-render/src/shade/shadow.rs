@@ -15,7 +15,7 @@ pub(crate) const SHORT_OF_LIGHT: f64 = 1.0 - 1.0 / (1u64 << 32) as f64;
 /// Writes to `through` the share of light that comes through along each of the rays at `places`, within
 /// its interval. Opaque surfaces let nothing through, blended ones 1 − opacity; clear bodies let
 /// light pass straight on, as if it were not bent, less what they mirror and absorb.
-pub(super) fn one_by_one(world: &World, rays: &[Ray], places: &[usize], through: &mut [Vec3]) {
+pub(super) fn in_batch(world: &World, rays: &[Ray], places: &[usize], through: &mut [Vec3]) {
     let each = places.iter().map(|&place| &rays[place]);
     if world.lets_light_through() {
         world.scene().each_closest_hit(each, |index, first| {
@@ -28,7 +28,7 @@ pub(super) fn one_by_one(world: &World, rays: &[Ray], places: &[usize], through:
     }
 }
 
-/// The same as [`one_by_one`], for rays that share `common` and their intervals.
+/// The same as [`in_batch`], for rays that share `common` and their intervals.
 pub(super) fn in_packets(
     world: &World,
     common: Common,

@@ -28,7 +28,8 @@ pub(super) fn on_lattice<const N: usize>(numbers: [f64; N]) -> Option<[i64; N]> 
     for (integer, x) in integers.iter_mut().zip(numbers) {
         let scaled = x * scale;
         *integer = scaled as i64;
-        if *integer as f64 != scaled {
+        // What became zero by underflow was not zero.
+        if *integer as f64 != scaled || (*integer == 0 && x != 0.0) {
             return None;
         }
     }
@@ -57,6 +58,10 @@ mod tests {
         assert_eq!(on_lattice([1.0, 1.0 / 3.0]), None);
         assert_eq!(on_lattice([1.0, 2.0_f64.powi(-BITS)]), None);
         assert!(on_lattice([1.0, 2.0_f64.powi(1 - BITS)]).is_some());
+        for x in [2.0_f64.powi(300), 2.0_f64.powi(600)] {
+            assert_eq!(on_lattice([x, 1.0 / x]), None);
+            assert_eq!(on_lattice([x, f64::from_bits(1)]), None);
+        }
         for x in [1e-250, 1e250, f64::INFINITY, f64::NAN] {
             assert_eq!(on_lattice([x, 1.0 / 3.0]), None, "{x}");
         }

@@ -1,11 +1,11 @@
 //! Hits one by one: those that are wanted, and those that come after another.
 
-use super::Scene;
+use super::{Precision, Scene};
 use crate::geometry::Ray;
 use crate::primitives::{Hit, TriangleMesh};
 use crate::traverse::AllHits;
 
-impl Scene {
+impl<T: Precision> Scene<T> {
     /// The first hit that `keep` keeps: [`closest_hit`](Self::closest_hit) as if the others were not
     /// there. It is asked once of each hit, by rising t, equal t by rising primitive id, and no more
     /// when it has said yes; for instance by a mask of triangles.
@@ -48,12 +48,12 @@ impl Scene {
     /// assert_eq!((few.len(), rest.len()), (3, 2)); // all five at t = 2
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn all_hits_after(&self, ray: &Ray, last: &Hit) -> AllHits<'_, TriangleMesh, 3> {
+    pub fn all_hits_after(&self, ray: &Ray, last: &Hit) -> AllHits<'_, TriangleMesh<T>, 3> {
         self.shapes().all_hits_after(ray, last)
     }
 
     /// What [`all_touched`](Self::all_touched) finds after `last`, one of its hits.
-    pub fn all_touched_after(&self, ray: &Ray, last: &Hit) -> AllHits<'_, TriangleMesh, 3> {
+    pub fn all_touched_after(&self, ray: &Ray, last: &Hit) -> AllHits<'_, TriangleMesh<T>, 3> {
         self.shapes().all_touched_after(ray, last)
     }
 }

@@ -65,8 +65,8 @@ pub enum InstanceError {
         /// How many there are.
         geometries: usize,
     },
-    /// A matrix is not finite, or so nearly flat that f64 cannot turn it back: it stretches some direction
-    /// more than 2^26 times as much as another.
+    /// A matrix is not finite, or so nearly flat that f64 cannot turn it back: its inverse, times the matrix, is
+    /// not the identity to 2^-26.
     #[error("the matrix of instance {0} cannot be inverted; give one that flattens nothing")]
     Singular(usize),
     /// A copy lies beyond the largest f32.
@@ -110,14 +110,14 @@ pub(super) struct Placed {
     pub(super) to_object: DAffine3,
 }
 
-/// By how much of its largest coordinate the box of an instance is widened: far more than what rounding in a
-/// matrix that [`InstanceError::Singular`] lets pass may move a hit by, see [`InstancedScene`].
+/// By how much of its largest coordinate the box of an instance is widened: far more than what an inverse
+/// that is off by [`INVERSE_ERROR`] may move a hit by, see [`InstancedScene`].
 ///
 /// [`InstancedScene`]: super::InstancedScene
 const WIDENED: f64 = 1.0 / (1 << 20) as f64;
 
-/// The most that a matrix may stretch one direction in units of another.
-const MOST_STRETCH: f64 = (1 << 26) as f64;
+/// By how much the matrix times its inverse may differ from the identity.
+const INVERSE_ERROR: f64 = 1.0 / (1 << 26) as f64;
 
 impl Placed {
     /// The instance of that index, and its box in the world. `bounds` is that of its geometry.
@@ -128,9 +128,9 @@ impl Placed {
     ) -> Result<(Self, Aabb<3>), InstanceError> {
         let to_world = affine(&instance.to_world);
         let to_object = to_world.inverse();
-        let stretch = norm(&to_world.matrix3) * norm(&to_object.matrix3);
+        let error = norm(&(to_world.matrix3 * to_object.matrix3 - DMat3::IDENTITY));
         // A NaN is refused as well.
-        if !(stretch <= MOST_STRETCH && to_world.is_finite() && to_object.is_finite()) {
+        if !(error <= INVERSE_ERROR && to_world.is_finite() && to_object.is_finite()) {
             return Err(InstanceError::Singular(index));
         }
         let placed = Self { geometry_id: instance.geometry_id, mask: instance.mask, to_object };

@@ -17,8 +17,8 @@ use thiserror::Error;
 /// A ray is carried into the space of each instance it may meet, by the inverse of the matrix in f64, and
 /// is answered there as by [`Scene`]: exactly, for the carried ray. An instance that is not moved is
 /// met exactly; carrying rounds the ray by some 2^-52 of the distance between its origin and the instance, times
-/// how unevenly the matrix stretches. So rays may come from up to 2^20 times the largest coordinate away;
-/// from farther, whether a ray is told to meet the rim of an instance may depend on the tree.
+/// how unevenly the matrix stretches. So rays may come from up to 2^30 times the largest coordinate away, divided
+/// by that; from farther, whether a ray is told to meet the rim of an instance may depend on the tree.
 ///
 /// An instance takes some 200 bytes.
 ///

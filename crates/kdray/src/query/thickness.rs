@@ -19,7 +19,7 @@ impl Scene {
     /// whose weight is above 2^-30. No distance is too small to count.
     ///
     /// `None` if there is no surface on the way, the triangle has no area, there is no such
-    /// triangle, or the weights are not from 0 to 1.
+    /// triangle, or the weights are not from 0 to 1, give or take 2^-30.
     ///
     /// ```
     /// # use kdray::{BuildOptions, Scene, Side, TriangleMesh};

@@ -62,9 +62,12 @@ impl Scene {
 
     /// How many more parts a ray leaves than it enters.
     fn parts_around(&self, point: [f64; 3]) -> f64 {
-        let hits = self.way_out(point).into_iter().flat_map(|ray| self.all_hits(&ray));
+        let mut hits = Vec::new();
+        if let Some(ray) = self.way_out(point) {
+            self.all_hits_into(&ray, &mut hits);
+        }
         // Not by `sum`, of which that over nothing is -0.
-        hits.fold(0.0, |sum, hit| if hit.side == Side::Back { sum + 1.0 } else { sum - 1.0 })
+        hits.iter().fold(0.0, |sum, hit| if hit.side == Side::Back { sum + 1.0 } else { sum - 1.0 })
     }
 
     fn clusters(&self) -> &Clusters {

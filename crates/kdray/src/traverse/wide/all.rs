@@ -9,6 +9,9 @@ use crate::primitives::{Hit, HitRule, TriangleMesh, intersect_triangle};
 use crate::simd::Lanes;
 use fearless_simd::prelude::*;
 
+/// Among so many hits a triangle is looked for before it is tested again.
+const LATEST: usize = 16;
+
 /// Every crossing, decided exactly. Nothing ends the search early, so leaves may come in any order.
 pub(crate) struct All<'a, T: 'static> {
     mesh: &'a TriangleMesh<T>,
@@ -40,20 +43,21 @@ impl<'a, T: Coordinate> Search<'a> for All<'a, T> {
     /// The hits by rising t, equal t by rising id.
     #[inline(always)]
     fn answer(&mut self, answer: &mut Vec<Hit>) {
-        sort(&mut self.hits);
+        put_in_order(&mut self.hits);
         std::mem::swap(answer, &mut self.hits);
     }
 }
 
 impl<T: Coordinate> All<'_, T> {
-    /// Adds those of the candidates that are crossed. A triangle in several leaves is added once.
+    /// Adds those of the candidates that are crossed, unless they were among the latest: a triangle may be in
+    /// several leaves.
     #[inline(never)]
     fn add(&mut self, block: &TriangleBlock, mut candidates: u64) {
         while candidates != 0 {
             let lane = candidates.trailing_zeros() as usize;
             candidates &= candidates - 1;
             let id = block.id(lane);
-            if self.hits.iter().any(|hit| hit.primitive_id == id) {
+            if self.hits.iter().rev().take(LATEST).any(|hit| hit.primitive_id == id) {
                 continue;
             }
             let corners = triangle(self.mesh, block, lane);
@@ -62,7 +66,9 @@ impl<T: Coordinate> All<'_, T> {
     }
 }
 
+/// Sorts the hits, and leaves one of those of the same triangle, which are the same.
 #[inline(never)]
-fn sort(hits: &mut [Hit]) {
+fn put_in_order(hits: &mut Vec<Hit>) {
     hits.sort_unstable_by(Hit::order);
+    hits.dedup_by_key(|hit| hit.primitive_id);
 }

@@ -92,6 +92,10 @@ impl Search {
 
     fn test(&mut self, block: &TriangleBlock, lane: usize) {
         let corners = block.triangle(lane).map(|p| p.map(f64::from));
+        // In a tree file that was not verified they may be anything.
+        if !corners.as_flattened().iter().all(|x| x.is_finite()) {
+            return;
+        }
         let found = closest_on_triangle(self.point, corners, block.id(lane));
         if self.nearest.is_none_or(|nearest| found.precedes(&nearest)) {
             let limit = found.distance + self.slack;

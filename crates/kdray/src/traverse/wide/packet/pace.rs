@@ -46,7 +46,7 @@ impl std::ops::AddAssign for PacketWork {
 const SIZES: [usize; 2] = [64, 512];
 
 /// What a ray costs in a batch, in cycles: for the closest hit, and for any.
-const ALONE: [usize; 2] = [1000, 400];
+const ALONE: [usize; 2] = [700, 400];
 
 /// After so many rays what was not the best way is tried again.
 const TRIAL: usize = 8192;
