@@ -20,6 +20,9 @@ struct Answers {
     near: Vec<bool>,
     crossed: Vec<Vec<[u64; 4]>>,
     touched: Vec<Vec<[u64; 4]>>,
+    /// All hits but the first, and the first on a triangle of even id.
+    rest: Vec<Vec<[u64; 4]>>,
+    even: Vec<Option<[u64; 4]>>,
 }
 
 fn bits(hit: Hit) -> [u64; 4] {
@@ -40,6 +43,15 @@ fn answers<T: Precision>(scene: &Scene<T>, rays: &[Ray]) -> Answers {
             .collect(),
         crossed: rays.iter().map(|ray| scene.all_hits(ray).map(bits).collect()).collect(),
         touched: rays.iter().map(|ray| scene.all_touched(ray).map(bits).collect()).collect(),
+        rest: rays
+            .iter()
+            .filter_map(|ray| Some((ray, scene.all_hits(ray).next()?)))
+            .map(|(ray, first)| scene.all_hits_after(ray, &first).map(bits).collect())
+            .collect(),
+        even: rays
+            .iter()
+            .map(|ray| scene.closest_hit_where(ray, |hit| hit.primitive_id % 2 == 0).map(bits))
+            .collect(),
     }
 }
 
