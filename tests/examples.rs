@@ -1,16 +1,23 @@
 //! The examples of the library run, and print what they promise.
 
+use std::path::PathBuf;
 use std::process::Command;
+use std::sync::LazyLock;
+
+/// Where the examples are, once they are built: with all of the workspace, whose libraries are there already. For
+/// one package alone cargo would compile the library anew.
+static EXAMPLES: LazyLock<PathBuf> = LazyLock::new(|| {
+    let manifest = concat!(env!("CARGO_MANIFEST_DIR"), "/../Cargo.toml");
+    let arguments = ["build", "--quiet", "--workspace", "--examples", "--manifest-path", manifest];
+    let built = Command::new(env!("CARGO")).args(arguments).output().expect("cargo can be started");
+    assert!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
+    let own = std::env::current_exe().expect("a test knows its own path");
+    own.ancestors().nth(2).expect("it is in target/PROFILE/deps").join("examples")
+});
 
 /// What an example prints.
 fn output_of(example: &str) -> String {
-    let arguments = ["run", "--quiet", "--package", "kdray", "--example", example];
-    let manifest = concat!(env!("CARGO_MANIFEST_DIR"), "/../Cargo.toml");
-    let output = Command::new(env!("CARGO"))
-        .args(arguments)
-        .args(["--manifest-path", manifest])
-        .output()
-        .expect("cargo can be started");
+    let output = Command::new(EXAMPLES.join(example)).output().expect("the example can be started");
     let errors = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{example} failed: {errors}");
     String::from_utf8(output.stdout).expect("examples print text")

@@ -25,7 +25,11 @@ impl Scene {
     /// # let corners = vec![[0.0, 0.0, 2.0], [1.0, 0.0, 2.0], [0.0, 1.0, 2.0]];
     /// # let scene = Scene::build(TriangleMesh::new(corners, vec![[0, 1, 2]])?, &Default::default())?;
     /// let mut file = Vec::new();
-    /// scene.save(|bytes| std::io::Write::write_all(&mut file, bytes))?;
+    /// let kept = scene.save(|bytes| {
+    ///     file.extend_from_slice(bytes);
+    ///     Ok::<(), std::convert::Infallible>(())
+    /// });
+    /// assert!(kept.is_ok());
     /// let loaded = Scene::load(Arc::new(AlignedBytes::from(&file[..])))?;
     /// let ray = Ray::new([0.25, 0.25, 0.0], [0.0, 0.0, 1.0]);
     /// assert_eq!(loaded.closest_hit(&ray), scene.closest_hit(&ray));
