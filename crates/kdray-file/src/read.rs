@@ -64,7 +64,7 @@ pub fn load(path: &Path, memory_limit: Option<u64>) -> Result<Scene, TreeFileErr
 ///
 /// The file must not be written to for as long as the scene or a clone of it is there, or answers may be
 /// anything, and the program may be ended ([`Map`] says how). To put a new one in its place, as
-/// [`save`](crate::save) does, is safe.
+/// [`save`](crate::save()) does, is safe.
 ///
 /// # Errors
 /// See [`TreeFileError`].

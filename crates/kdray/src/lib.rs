@@ -2,7 +2,7 @@
 //!
 //! The pipeline, in the order of the modules:
 //! [`memory`] → [`geometry`] → [`exact`] → [`primitives`] → [`tree`] → [`build`] → [`simd`] → [`layout`] →
-//! [`traverse`] → [`query`] → [`file`].
+//! [`traverse`] → [`query`] → [`mod@file`].
 //!
 //! Most users need four names: [`TriangleMesh`], [`Scene`], [`Ray`] and [`Hit`].
 
