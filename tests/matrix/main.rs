@@ -120,7 +120,7 @@ macro_rules! packets {
 }
 
 macro_rules! builder {
-    ($name:ident, $options:expr) => {
+    ($name:ident, $options:expr $(, $kernels_f64:ident)?) => {
         mod $name {
             use super::*;
 
@@ -134,7 +134,7 @@ macro_rules! builder {
             queries!(balls_3d, BALLS_3D, closest_hit any_hit all_hits all_touched count);
             queries!(triangles_f64, TRIANGLES_F64, closest_hit any_hit all_hits all_touched count);
             kernels!(kernels, TRIANGLES, PACKETS, portable neon avx2 avx512);
-            kernels!(kernels_f64, TRIANGLES_F64, PACKETS_F64, portable neon avx2 avx512);
+            $(kernels!($kernels_f64, TRIANGLES_F64, PACKETS_F64, portable neon avx2 avx512);)?
             packets!(masked = Masked interval = Interval frustum = Frustum);
         }
     };
@@ -146,16 +146,18 @@ fn deep(strategy: Strategy) -> BuildOptions {
     BuildOptions { leaf_size: 1, ..BuildOptions::for_strategy(strategy) }
 }
 
+// For f64 the kernels have other bounds, and corners from elsewhere, but ask the same of a tree: three builders, of
+// the deepest leaves, of blocks, and of none, stand for all.
 builder!(middle, deep(Strategy::Middle));
 builder!(median, deep(Strategy::Median));
 builder!(round_robin, deep(Strategy::RoundRobin));
-builder!(sah, deep(Strategy::Sah));
+builder!(sah, deep(Strategy::Sah), kernels_f64);
 builder!(sah_naive, BuildOptions { sah_builder: SahBuilder::Naive, ..deep(Strategy::Sah) });
 builder!(
     binned,
     BuildOptions { sah_builder: SahBuilder::Binned { sweep_below: 0 }, ..deep(Strategy::Sah) }
 );
 builder!(fast, BuildOptions::preset(Preset::Fast));
-builder!(balanced, BuildOptions::preset(Preset::Balanced));
+builder!(balanced, BuildOptions::preset(Preset::Balanced), kernels_f64);
 builder!(best, BuildOptions::preset(Preset::Best));
-builder!(one_leaf, BuildOptions { leaf_size: usize::MAX, ..deep(Strategy::Sah) });
+builder!(one_leaf, BuildOptions { leaf_size: usize::MAX, ..deep(Strategy::Sah) }, kernels_f64);
