@@ -7,7 +7,7 @@ pub(crate) fn run() -> Result<(), String> {
     let mut steps = Steps::new();
     steps.cargo("tests and examples", "test --workspace --all-targets", &[])?;
     steps.cargo("tests of the documentation", "test --workspace --doc", &[])?;
-    // Compiled without optimisation, which takes a fifth of the time: the tests themselves are short.
+    // Without optimisation, for these tests take longer to compile than to run.
     let bare = "test -p kdray --no-default-features --lib --config profile.dev.opt-level=0";
     steps.cargo("tests, library without default features", bare, &[])?;
     steps.finish("test");

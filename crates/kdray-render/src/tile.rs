@@ -22,7 +22,7 @@ const OCCLUSION_SHARE: f64 = 0.1;
 /// Rays that are gathered at once: enough to keep a batch busy, few enough for the caches.
 const GATHERED: usize = 1024;
 
-/// Camera rays that are gathered at once for packets: a large one.
+/// Camera rays that are gathered at once for packets: those of a large packet.
 const GATHERED_IN_PACKETS: usize = 512;
 
 /// Rays that are gathered at once at the most, light rays among them.

@@ -225,6 +225,11 @@ fn ten_thousand_copies_share_one_tree() {
         .collect();
     let scene = InstancedScene::build(vec![scene(cube())], instances).unwrap();
     assert_eq!((scene.geometries().len(), scene.instances().len()), (1, 10_000));
+    // Of the tree over them; what is kept of each besides does not depend on the geometry.
+    let tree = scene.tree();
+    let references = tree.stats(10_000, &kdray::CostModel::default()).references;
+    let bytes = 8 * tree.nodes().len() + 4 * references;
+    assert!(bytes < 40 * 10_000, "{bytes}");
     for i in 0..10_000_u32 {
         let (x, y) = (f64::from(4 * (i % 100)), f64::from(4 * (i / 100)));
         let ray = Ray::new([x + 0.25, y + 0.5, 9.0], [0.0, 0.0, -1.0]);

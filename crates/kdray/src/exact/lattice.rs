@@ -11,8 +11,8 @@ const SIZES: std::ops::Range<f64> = 1e-200..1e200;
 /// if there is none, or their size is out of the ordinary.
 ///
 /// Corners in f32, and rays that were made of f32, mostly have one. Where rays are aimed at vertices and along edges,
-/// signs are zero, which no rounded arithmetic can tell; here it takes a tenth of the time of an
-/// [`Accumulator`](super::Accumulator).
+/// signs are zero, which no rounded arithmetic can tell; integers do, in far fewer steps than an
+/// [`Accumulator`](super::Accumulator) of a hundred limbs.
 #[inline]
 pub(super) fn on_lattice<const N: usize>(numbers: [f64; N]) -> Option<[i64; N]> {
     let largest = numbers.iter().fold(0.0, |most: f64, x| most.max(x.abs()));

@@ -102,14 +102,6 @@ impl InstanceHit {
     }
 }
 
-/// An instance made ready for rays.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Placed {
-    pub(super) geometry_id: u32,
-    pub(super) mask: u32,
-    pub(super) to_object: DAffine3,
-}
-
 /// By how much of its largest coordinate the box of an instance is widened: far more than what an inverse
 /// that is off by [`INVERSE_ERROR`] may move a hit by, see [`InstancedScene`].
 ///
@@ -119,24 +111,22 @@ const WIDENED: f64 = 1.0 / (1 << 20) as f64;
 /// By how much the matrix times its inverse may differ from the identity.
 const INVERSE_ERROR: f64 = 1.0 / (1 << 26) as f64;
 
-impl Placed {
-    /// The instance of that index, and its box in the world. `bounds` is that of its geometry.
-    pub(super) fn new(
-        index: usize,
-        instance: &Instance,
-        bounds: &Aabb<3>,
-    ) -> Result<(Self, Aabb<3>), InstanceError> {
-        let to_world = affine(&instance.to_world);
-        let to_object = to_world.inverse();
-        let error = norm(&(to_world.matrix3 * to_object.matrix3 - DMat3::IDENTITY));
-        // A NaN is refused as well.
-        if !(error <= INVERSE_ERROR && to_world.is_finite() && to_object.is_finite()) {
-            return Err(InstanceError::Singular(index));
-        }
-        let placed = Self { geometry_id: instance.geometry_id, mask: instance.mask, to_object };
-        let bounds = world_bounds(&to_world, bounds).ok_or(InstanceError::OutOfRange(index))?;
-        Ok((placed, bounds))
+/// The way back from the world into the space of the instance of that index, and its box in the world.
+/// `bounds` is that of its geometry.
+pub(super) fn place(
+    index: usize,
+    instance: &Instance,
+    bounds: &Aabb<3>,
+) -> Result<(DAffine3, Aabb<3>), InstanceError> {
+    let to_world = affine(&instance.to_world);
+    let to_object = to_world.inverse();
+    let error = norm(&(to_world.matrix3 * to_object.matrix3 - DMat3::IDENTITY));
+    // A NaN is refused as well.
+    if !(error <= INVERSE_ERROR && to_world.is_finite() && to_object.is_finite()) {
+        return Err(InstanceError::Singular(index));
     }
+    let bounds = world_bounds(&to_world, bounds).ok_or(InstanceError::OutOfRange(index))?;
+    Ok((to_object, bounds))
 }
 
 /// The same matrix, by columns.

@@ -13,9 +13,9 @@ impl Scene {
     /// In a mesh that is closed and oriented ([`Closure::Oriented`]) it is the whole number of parts
     /// around the point, which is counted exactly. Elsewhere, and on the surface, it is summed:
     /// triangles near the point exactly to rounding, those far away in clusters (Barill et al. 2018)
-    /// by the first three terms of what they look like. On ten
-    /// scenes of 1 to 270 thousand triangles it erred by 0.006 at most, in the middle by 0.001 or less. A triangle in whose plane the point lies
-    /// counts zero, so on a smooth part of the surface the number is the middle of those on both
+    /// by the first three terms of what they look like. On ten scenes of 1 to 270 thousand triangles
+    /// it erred by 0.006 at most, in the middle by 0.001 or less. A triangle in whose plane the point
+    /// lies counts zero, so on a smooth part of the surface the number is the middle of those on both
     /// sides.
     ///
     /// The clusters are made when they are first needed, in O(N log N), and kept: some 70
