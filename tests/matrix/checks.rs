@@ -199,14 +199,17 @@ pub(crate) fn kernel_all_hits<T: Precision>(
 ) -> Result<(), String> {
     let rays: Vec<_> = aimed.iter().map(|aimed| aimed.ray).collect();
     let mut batch = vec![Vec::new(); rays.len()];
-    scene.each_all_hits(&rays, |index, hits| batch[index] = hits);
+    scene.each_all_hits(&rays, |index, hits| batch[index] = hits.to_vec());
+    let mut counts = vec![usize::MAX; rays.len()];
+    scene.counts(&rays, &mut counts);
     let mut hits = vec![Hit { t: 0.0, primitive_id: 0, u: 0.0, v: 0.0, side: Side::Front }];
-    for ((aimed, ray), in_batch) in aimed.iter().zip(&rays).zip(batch) {
+    for (((aimed, ray), in_batch), count) in aimed.iter().zip(&rays).zip(batch).zip(counts) {
         let naive = &aimed.crossed.naive;
         scene.all_hits_into(ray, &mut hits);
         same(&hits, naive).map_err(|error| format!("{ray:?}: {error}"))?;
         same(&in_batch, naive).map_err(|error| format!("{ray:?} in a batch: {error}"))?;
         same(&scene.count(ray), &naive.len())?;
+        same(&count, &naive.len())?;
     }
     Ok(())
 }

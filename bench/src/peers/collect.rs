@@ -67,6 +67,33 @@ pub(super) fn kdray(mesh: &TriangleMesh, rays: &[Ray]) -> Result<Lists, BenchErr
     }))
 }
 
+/// kdray's `each_all_hits`: the rays in turns, whose hits lie together, but in the order of arrival.
+pub(super) fn kdray_batch(mesh: &TriangleMesh, rays: &[Ray]) -> Result<Lists, BenchError> {
+    let scene = Scene::build(mesh.clone(), &BuildOptions::default())?;
+    let rays: Vec<kdray::Ray> = rays.iter().map(exact_ray).collect();
+    let mut arrived = Lists::default();
+    let mut places = vec![0..0; rays.len()];
+    let mut round = |_| {
+        let trace = || {
+            arrived.begin();
+            scene.each_all_hits(&rays, |index, hits| {
+                let start = arrived.t.len();
+                hits.iter().for_each(|hit| arrived.push(hit.t as f32, hit.primitive_id));
+                places[index] = start..arrived.t.len();
+            });
+        };
+        timed_here(trace).1.cpu
+    };
+    let seconds = median((0..ROUNDS).map(&mut round).collect());
+    let mut lists = Lists { seconds, ..Lists::default() };
+    lists.begin();
+    for place in places {
+        place.for_each(|i| lists.push(arrived.t[i], arrived.ids[i]));
+        lists.end_ray();
+    }
+    Ok(lists)
+}
+
 /// Embree's `rtcIntersect1` with a filter that collects, sorted.
 pub(super) fn embree(
     library: &Embree,

@@ -70,6 +70,7 @@ fn answer(
     written.by_kernel(case, contender, kernel)?;
     match (full_name(contender, kernel).as_str(), embree) {
         ("kdray single", _) => written.all(&collect::kdray(&case.mesh, &case.rays)?)?,
+        ("kdray batch", _) => written.all(&collect::kdray_batch(&case.mesh, &case.rays)?)?,
         ("embree medium single", Some(embree)) => {
             written.all(&collect::embree(embree, Quality::Medium, &case.mesh, &case.rays)?)?;
         }

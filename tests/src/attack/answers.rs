@@ -119,7 +119,7 @@ fn in_batches(scene: &Scene, rays: &[Ray], add: &mut impl FnMut(&str, Said)) {
     add("batch, closest hit", Said::Closest(closest));
     add("batch, any hit", Said::Any(any));
     let mut all = vec![Vec::new(); rays.len()];
-    scene.each_all_hits(rays, |index, hits| all[index] = hits);
+    scene.each_all_hits(rays, |index, hits| all[index] = hits.to_vec());
     add("batch, all hits", Said::All(HitRule::Crossing, all));
 }
 

@@ -11,7 +11,7 @@ use twox_hash::xxhash3_64::Hasher as Xxh3;
 impl Scene {
     /// How many bytes the scene takes when it is saved.
     pub fn saved_bytes(&self) -> u64 {
-        let sections = Sections::new(&self.counts());
+        let sections = Sections::new(&self.section_counts());
         sections.expect("what is in memory fits a file").file_bytes()
     }
 
@@ -41,7 +41,7 @@ impl Scene {
     pub fn save<E>(&self, mut write: impl FnMut(&[u8]) -> Result<(), E>) -> Result<(), E> {
         let header = Header {
             body_checksum: self.body_checksum(),
-            counts: self.counts(),
+            counts: self.section_counts(),
             bounds: *self.tree().bounds(),
             has_wide: self.wide_tree().is_some(),
         };
@@ -53,7 +53,7 @@ impl Scene {
         self.wide_tree().map(WideTree::parts).unwrap_or_default()
     }
 
-    fn counts(&self) -> [u64; COUNT] {
+    fn section_counts(&self) -> [u64; COUNT] {
         let (mesh, tree, wide) = (self.mesh(), self.tree(), self.wide_parts());
         let lengths = [
             mesh.vertices().len(),
@@ -79,7 +79,8 @@ impl Scene {
     /// All that follows the header.
     fn write_body<E>(&self, mut write: impl FnMut(&[u8]) -> Result<(), E>) -> Result<(), E> {
         let (mesh, tree, wide) = (self.mesh(), self.tree(), self.wide_parts());
-        let sections = Sections::new(&self.counts()).expect("what is in memory fits a file");
+        let sections =
+            Sections::new(&self.section_counts()).expect("what is in memory fits a file");
         let mut gaps = sections.gaps();
         let mut fill = |write: &mut dyn FnMut(&[u8]) -> Result<(), E>| {
             let gap = gaps.next().map_or(0, |gap| gap.end - gap.start);

@@ -3,7 +3,7 @@
 use super::{Precision, Scene};
 use crate::geometry::Ray;
 use crate::primitives::Hit;
-use crate::traverse::wide::{All, NoAim, search_along};
+use crate::traverse::wide::{All, Count, NoAim, search_along};
 use std::borrow::Borrow;
 
 impl<T: Precision> Scene<T> {
@@ -30,9 +30,27 @@ impl<T: Precision> Scene<T> {
     /// mesh it is even for a ray from outside without end, and odd for one from inside.
     #[must_use]
     pub fn count(&self, ray: &Ray) -> usize {
-        let mut hits = Vec::new();
-        T::all_hits_into(self, ray, &mut hits);
-        hits.len()
+        T::count(self, ray)
+    }
+
+    /// [`count`](Self::count) of each ray, on this thread: `counts[i]` is that of `rays[i]`. In turns,
+    /// like [`closest_hits`](Self::closest_hits).
+    ///
+    /// # Panics
+    /// If the slices differ in length.
+    pub fn counts(&self, rays: &[Ray], counts: &mut [usize]) {
+        assert_eq!(rays.len(), counts.len(), "as many counts as rays");
+        T::counts(self, rays, counts);
+    }
+
+    /// [`counts`](Self::counts) on all threads of the current rayon pool.
+    ///
+    /// # Panics
+    /// If the slices differ in length.
+    #[cfg(feature = "rayon")]
+    pub fn par_counts(&self, rays: &[Ray], counts: &mut [usize]) {
+        assert_eq!(rays.len(), counts.len(), "as many counts as rays");
+        super::batch::par_chunks(rays, counts, |rays, counts| self.counts(rays, counts));
     }
 
     /// Streams rays like [`each_closest_hit`](Self::each_closest_hit), and gives `found` all hits of
@@ -40,14 +58,35 @@ impl<T: Precision> Scene<T> {
     pub fn each_all_hits(
         &self,
         rays: impl IntoIterator<Item: Borrow<Ray>>,
-        found: impl FnMut(usize, Vec<Hit>),
+        mut found: impl FnMut(usize, &[Hit]),
     ) {
         let one = |ray: &Ray| {
             let mut hits = Vec::new();
             self.all_hits_into(ray, &mut hits);
             hits
         };
-        self.each::<All<'_, T>>(rays, one, found);
+        self.each::<All<'_, T>>(rays, one, |index, hits| found(index, hits));
+    }
+
+    /// Streams rays like [`each_closest_hit`](Self::each_closest_hit), and gives `found` the
+    /// [`count`](Self::count) of each.
+    pub fn each_count(
+        &self,
+        rays: impl IntoIterator<Item: Borrow<Ray>>,
+        mut found: impl FnMut(usize, usize),
+    ) {
+        let one = |ray: &Ray| self.all_hits(ray).map(|hit| hit.primitive_id).collect();
+        self.each::<Count<'_, T>>(rays, one, |index, ids| found(index, ids.len()));
+    }
+
+    /// What [`Precision`] compiles.
+    pub(super) fn find_count(&self, ray: &Ray) -> usize {
+        let Some(tree) = self.wide_and_mesh() else { return self.all_hits(ray).count() };
+        let mut ids = Vec::new();
+        match search_along::<Count<'_, T>>(tree, ray, self.instructions, &mut ids) {
+            Ok(()) | Err(NoAim::Missed) => ids.len(),
+            Err(NoAim::OutOfRange) => self.all_hits(ray).count(),
+        }
     }
 
     /// What [`Precision`] compiles; `hits` are empty.

@@ -67,8 +67,9 @@ impl<T: Precision> Scene<T> {
     pub fn each_closest_hit(
         &self,
         rays: impl IntoIterator<Item: Borrow<Ray>>,
-        found: impl FnMut(usize, Option<Hit>),
+        mut found: impl FnMut(usize, Option<Hit>),
     ) {
+        let found = |index, hit: &mut Option<Hit>| found(index, *hit);
         let one = |ray: &Ray| self.closest_hit(ray);
         match self.arithmetic {
             Arithmetic::Float if T::FITS_TREE => {
@@ -91,8 +92,9 @@ impl<T: Precision> Scene<T> {
     pub(super) fn each_any(
         &self,
         rays: impl IntoIterator<Item: Start>,
-        found: impl FnMut(usize, bool),
+        mut found: impl FnMut(usize, bool),
     ) {
+        let found = |index, is_hit: &mut bool| found(index, *is_hit);
         let one = |ray: &Ray| self.any_hit(ray);
         match self.arithmetic {
             Arithmetic::Float if T::FITS_TREE => {
@@ -108,21 +110,25 @@ impl<T: Precision> Scene<T> {
         &'a self,
         rays: impl IntoIterator<Item: Start>,
         one: impl Fn(&Ray) -> Q::Answer,
-        mut found: impl FnMut(usize, Q::Answer),
+        mut found: impl FnMut(usize, &mut Q::Answer),
     ) {
         const ENOUGH: usize = 8;
         let rays = rays.into_iter();
         let few = rays.size_hint().1.is_some_and(|most| most < ENOUGH);
         match self.wide_and_mesh().filter(|_| !few) {
             Some(tree) => search_along_each::<Q>(tree, rays, self.instructions, one, found),
-            None => rays.enumerate().for_each(|(index, ray)| found(index, one(ray.ray()))),
+            None => rays.enumerate().for_each(|(index, ray)| found(index, &mut one(ray.ray()))),
         }
     }
 }
 
 /// Hands `rays` to several threads, with the room for their answers.
 #[cfg(feature = "rayon")]
-fn par_chunks<T: Send>(rays: &[Ray], answers: &mut [T], answer: impl Fn(&[Ray], &mut [T]) + Sync) {
+pub(super) fn par_chunks<T: Send>(
+    rays: &[Ray],
+    answers: &mut [T],
+    answer: impl Fn(&[Ray], &mut [T]) + Sync,
+) {
     use rayon::prelude::*;
     const CHUNK: usize = 4096;
     let chunks = rays.par_chunks(CHUNK).zip(answers.par_chunks_mut(CHUNK));

@@ -29,6 +29,10 @@ pub trait Precision: Coordinate {
     #[doc(hidden)]
     fn all_hits_into(scene: &Scene<Self>, ray: &Ray, hits: &mut Vec<Hit>);
     #[doc(hidden)]
+    fn count(scene: &Scene<Self>, ray: &Ray) -> usize;
+    #[doc(hidden)]
+    fn counts(scene: &Scene<Self>, rays: &[Ray], counts: &mut [usize]);
+    #[doc(hidden)]
     fn closest_hit_with_hint(scene: &Scene<Self>, ray: &Ray) -> Option<(Hit, Hint)>;
     #[doc(hidden)]
     fn any_hit_near(scene: &Scene<Self>, ray: &Ray, hint: Hint) -> bool;
@@ -74,6 +78,14 @@ macro_rules! compile_for {
 
                 fn all_hits_into(scene: &Scene<Self>, ray: &Ray, hits: &mut Vec<Hit>) {
                     scene.find_all_hits(ray, hits);
+                }
+
+                fn count(scene: &Scene<Self>, ray: &Ray) -> usize {
+                    scene.find_count(ray)
+                }
+
+                fn counts(scene: &Scene<Self>, rays: &[Ray], counts: &mut [usize]) {
+                    scene.each_count(rays, |index, count| counts[index] = count);
                 }
 
                 fn closest_hit_with_hint(scene: &Scene<Self>, ray: &Ray) -> Option<(Hit, Hint)> {

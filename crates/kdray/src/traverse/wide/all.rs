@@ -26,8 +26,10 @@ impl<'a, T: Coordinate> Search<'a> for All<'a, T> {
     const SHORTENS: bool = false;
 
     #[inline(always)]
-    fn new(ray: &Ray<3>, mesh: &'a TriangleMesh<T>) -> Self {
-        Self { mesh, ray: *ray, hits: Vec::new() }
+    fn new(ray: &Ray<3>, mesh: &'a TriangleMesh<T>, answer: &mut Vec<Hit>) -> Self {
+        let mut hits = std::mem::take(answer);
+        hits.clear();
+        Self { mesh, ray: *ray, hits }
     }
 
     #[inline(always)]

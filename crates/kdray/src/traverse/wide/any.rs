@@ -22,7 +22,7 @@ impl<'a, T: Coordinate, const EXACT: bool> Search<'a> for Any<'a, T, EXACT> {
     const SHORTENS: bool = false;
 
     #[inline(always)]
-    fn new(ray: &Ray<3>, mesh: &'a TriangleMesh<T>) -> Self {
+    fn new(ray: &Ray<3>, mesh: &'a TriangleMesh<T>, _: &mut bool) -> Self {
         Self { mesh, ray: *ray, is_hit: false }
     }
 

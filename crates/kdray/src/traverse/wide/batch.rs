@@ -61,15 +61,15 @@ impl Queue {
     }
 }
 
-/// Searches along `rays`, and gives `found` the number of each ray with its answer, as they come.
-/// Rays that are out of the kernels' range are answered by `scalar`.
+/// Searches along `rays`, and gives `found` the number of each ray with its answer, as they come; it may
+/// take the answer, or leave it for its room. Rays that are out of the kernels' range are answered by `scalar`.
 #[inline(always)]
 pub(crate) fn search_along_each<'a, Q: Search<'a>>(
     (tree, mesh): (&'a WideTree, &'a TriangleMesh<Q::Coordinate>),
     rays: impl Iterator<Item: Start>,
     instructions: InstructionSet,
     scalar: impl Fn(&Ray<3>) -> Q::Answer,
-    found: impl FnMut(usize, Q::Answer),
+    found: impl FnMut(usize, &mut Q::Answer),
 ) {
     with_stacks(|stacks| {
         let search = PhantomData::<Q>;
@@ -81,7 +81,7 @@ impl<'a, Q: Search<'a>, R, A, F> Kernel for Batch<'a, '_, Q, R, A, F>
 where
     R: Iterator<Item: Start>,
     A: Fn(&Ray<3>) -> Q::Answer,
-    F: FnMut(usize, Q::Answer),
+    F: FnMut(usize, &mut Q::Answer),
 {
     type Output = ();
 
@@ -93,18 +93,19 @@ where
             std::array::from_fn(|_| Traveller::idle(mesh));
         let (mut nodes, mut leaves) = (Queue::default(), Queue::default());
         let mut idle = Queue { len: UNDER_WAY, slots: std::array::from_fn(|slot| slot as u8) };
+        let mut room = Q::Answer::default();
         loop {
             while let Some(slot) = idle.pop() {
                 let Some((index, ray)) = rays.next() else { break };
                 let traveller = &mut travellers[usize::from(slot) % UNDER_WAY];
                 let stack = &mut stacks[usize::from(slot) % UNDER_WAY];
-                let started = traveller.start(simd, (tree, mesh), index, &ray, stack);
+                let started = traveller.start(simd, (tree, mesh), index, &ray, stack, &mut room);
                 nodes.push_if(started.is_ok(), slot);
                 idle.push_if(started.is_err(), slot);
                 match started {
                     Ok(()) => {}
-                    Err(NoAim::Missed) => found(index, Q::Answer::default()),
-                    Err(NoAim::OutOfRange) => found(index, scalar(ray.ray())),
+                    Err(NoAim::Missed) => found(index, &mut Q::Answer::default()),
+                    Err(NoAim::OutOfRange) => found(index, &mut scalar(ray.ray())),
                 }
             }
             if nodes.len + leaves.len == 0 {
@@ -127,7 +128,8 @@ where
                 if traveller.next == Link::END || traveller.visit_block(simd, tree, stack) {
                     let mut answer = Q::Answer::default();
                     traveller.search.answer(&mut answer);
-                    found(traveller.index, answer);
+                    found(traveller.index, &mut answer);
+                    room = answer;
                     idle.push_if(true, slot);
                     continue;
                 }
@@ -142,7 +144,12 @@ where
 impl<'a, Q: Search<'a>> Traveller<Q> {
     fn idle(mesh: &'a TriangleMesh<Q::Coordinate>) -> Self {
         let ray = Ray { origin: [0.0; 3], direction: [0.0; 3], interval: crate::Interval::FORWARD };
-        Self { index: 0, search: Q::new(&ray, mesh), aim: Aim::NONE, next: Link::ROOT }
+        Self {
+            index: 0,
+            search: Q::new(&ray, mesh, &mut Q::Answer::default()),
+            aim: Aim::NONE,
+            next: Link::ROOT,
+        }
     }
 
     #[inline(always)]
@@ -153,9 +160,10 @@ impl<'a, Q: Search<'a>> Traveller<Q> {
         index: usize,
         start: &T,
         stack: &mut Stack,
+        room: &mut Q::Answer,
     ) -> Result<(), NoAim> {
         self.aim.set::<S, Q::Coordinate>(simd, tree, start.ray())?;
-        self.search = Q::new(start.ray(), mesh);
+        self.search = Q::new(start.ray(), mesh, room);
         stack.clear();
         self.index = index;
         self.next = Link::ROOT;

@@ -32,7 +32,7 @@ impl<'a, T: Coordinate, const EXACT: bool> Search<'a> for Closest<'a, T, EXACT> 
     const SHORTENS: bool = true;
 
     #[inline(always)]
-    fn new(ray: &Ray<3>, mesh: &'a TriangleMesh<T>) -> Self {
+    fn new(ray: &Ray<3>, mesh: &'a TriangleMesh<T>, _: &mut Option<Hit>) -> Self {
         Self { mesh, best: None, noted: None, open: *ray, t_low: f32::INFINITY }
     }
 

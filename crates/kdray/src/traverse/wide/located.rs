@@ -21,8 +21,8 @@ impl<'a, T: Coordinate, const EXACT: bool> Search<'a> for Located<'a, T, EXACT> 
     const SHORTENS: bool = true;
 
     #[inline(always)]
-    fn new(ray: &Ray<3>, mesh: &'a TriangleMesh<T>) -> Self {
-        Self { closest: Closest::new(ray, mesh), block: None }
+    fn new(ray: &Ray<3>, mesh: &'a TriangleMesh<T>, _: &mut Self::Answer) -> Self {
+        Self { closest: Closest::new(ray, mesh, &mut None), block: None }
     }
 
     #[inline(always)]

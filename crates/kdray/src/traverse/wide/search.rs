@@ -17,8 +17,12 @@ pub(crate) trait Search<'a>: Sized {
     /// Whether hits end the open part of the ray; if not, all that the ray meets is to be visited.
     const SHORTENS: bool;
 
-    /// Nothing is found yet.
-    fn new(ray: &Ray<3>, mesh: &'a TriangleMesh<Self::Coordinate>) -> Self;
+    /// Nothing is found yet. `answer` may have room that is used; what it says is lost.
+    fn new(
+        ray: &Ray<3>,
+        mesh: &'a TriangleMesh<Self::Coordinate>,
+        answer: &mut Self::Answer,
+    ) -> Self;
 
     /// Looks at the triangles of a block, and ends the open part of the ray at the best hit; true
     /// if the search is over.

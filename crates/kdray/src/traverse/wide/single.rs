@@ -59,7 +59,7 @@ impl<'a, Q: Search<'a>, const NEAR: bool> Kernel for Single<'a, '_, Q, NEAR> {
         let mut aim = Aim::NONE;
         aim.set::<S, Q::Coordinate>(simd, tree, ray)?;
         let mut slabs = Slabs::new(simd, &aim);
-        let mut search = Q::new(ray, mesh);
+        let mut search = Q::new(ray, mesh, answer);
         stack.clear();
         let mut next =
             if NEAR { climb::<S, Q>(simd, tree, hint, &aim, &slabs, stack) } else { Link::ROOT };
