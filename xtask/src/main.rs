@@ -9,6 +9,7 @@ mod lint;
 mod parity;
 mod peers;
 mod pixels;
+mod python;
 mod steps;
 mod test;
 
@@ -27,8 +28,10 @@ struct Arguments {
 enum Task {
     /// Format, clippy, documentation, and licences if cargo-deny is installed.
     Lint,
-    /// All tests: of every crate, of the documentation, of the examples.
+    /// All tests: of every crate, of the documentation, of the examples, of the Python package.
     Test,
+    /// Only the tests of the Python package, in a virtual environment.
+    Python,
     /// Every tree against the naive answer on real scenes, in a release build.
     Agree(agree::Options),
     /// Rays at every vertex and edge of closed meshes: `count` must be even. In a release build.
@@ -47,6 +50,7 @@ fn main() -> ExitCode {
     let outcome = match Arguments::parse().task {
         Task::Lint => lint::run(),
         Task::Test => test::run(),
+        Task::Python => python::run(&mut steps::Steps::new()),
         Task::Agree(options) => agree::run(&options),
         Task::Parity(options) => parity::run(&options),
         Task::Attack(options) => attack::run(&options),

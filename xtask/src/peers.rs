@@ -1,8 +1,8 @@
 //! `cargo xtask attack --peers`: rays are made, answered by Rust crates and Embree, answered by Python
 //! packages, and judged.
 
-use crate::steps::{Steps, say};
-use std::path::{Path, PathBuf};
+use crate::steps::{Steps, say, target_folder};
+use std::path::Path;
 use std::process::Command;
 
 /// What is fetched from PyPI: the peers as the figures in the README were taken with, and what Open3D needs of
@@ -51,10 +51,4 @@ fn ask_python(steps: &mut Steps, venv: &Path, folder: &Path) -> Result<(), Strin
     }
     let mut ask = Command::new(&python);
     steps.run("Python packages", ask.arg(PROGRAM).arg(folder), "python bench/peers.py")
-}
-
-/// Where cargo puts what it makes.
-fn target_folder() -> PathBuf {
-    let chosen = std::env::var_os("CARGO_TARGET_DIR").map(PathBuf::from);
-    chosen.unwrap_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../target"))
 }

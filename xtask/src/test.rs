@@ -1,5 +1,6 @@
 //! `cargo xtask test`.
 
+use crate::python;
 use crate::steps::Steps;
 
 /// Runs every test. Examples are run by a test of the crate `kdray-tests`.
@@ -10,6 +11,7 @@ pub(crate) fn run() -> Result<(), String> {
     // Without optimisation, for these tests take longer to compile than to run.
     let bare = "test -p kdray --no-default-features --lib --config profile.dev.opt-level=0";
     steps.cargo("tests, library without default features", bare, &[])?;
+    python::run(&mut steps)?;
     steps.finish("test");
     Ok(())
 }

@@ -1,0 +1,35 @@
+"""Exact ray queries on triangle meshes, by kd-trees.
+
+>>> import kdray, numpy as np
+>>> scene = kdray.Scene([[0, 0, 2], [1, 0, 2], [0, 1, 2]], [[0, 1, 2]])
+>>> hits = scene.closest_hit([0.25, 0.25, 0], [0, 0, 1])
+>>> float(hits.t), int(hits.primitive_id)
+(2.0, 0)
+"""
+
+from .errors import (
+    ArgumentError,
+    ArgumentTypeError,
+    BuildError,
+    InternalError,
+    KdrayError,
+    SceneError,
+    TreeFileError,
+    UnsupportedError,
+)
+from .hits import AllHits, Hits
+from .scene import Scene
+
+__all__ = [
+    "AllHits",
+    "ArgumentError",
+    "ArgumentTypeError",
+    "BuildError",
+    "Hits",
+    "InternalError",
+    "KdrayError",
+    "Scene",
+    "SceneError",
+    "TreeFileError",
+    "UnsupportedError",
+]

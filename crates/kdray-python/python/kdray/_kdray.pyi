@@ -1,0 +1,122 @@
+"""The compiled part of kdray. Its arrays are those that the package's own files make; use these."""
+
+from collections.abc import Callable, Sequence
+from typing import Optional, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .arrays import FloatArray
+from .rays import RayArrays
+
+_Progress = Optional[Callable[[int, int], object]]
+# t, u, v, primitive_id, front; geometry_id if there are several; instance_id if there are any
+_HitArrays = tuple[
+    FloatArray,
+    FloatArray,
+    FloatArray,
+    NDArray[np.int32],
+    NDArray[np.bool_],
+    Optional[NDArray[np.int32]],
+    Optional[NDArray[np.int32]],
+]
+# the geometry, three rows of a matrix into the world, the mask
+_Copy = tuple[int, Sequence[Sequence[float]], int]
+
+@final
+class Mesh:
+    """Triangles of one geometry."""
+
+    def __new__(cls, vertices: FloatArray, faces: NDArray[np.uint32]) -> Mesh: ...
+    @property
+    def face_count(self) -> int: ...
+    @property
+    def vertex_count(self) -> int: ...
+    @property
+    def is_double(self) -> bool: ...
+    @property
+    def vertices(self) -> FloatArray: ...
+    @property
+    def faces(self) -> NDArray[np.uint32]: ...
+
+@final
+class Tree:
+    """A built scene, to be asked from any thread."""
+
+    @staticmethod
+    def build(
+        meshes: Sequence[Mesh],
+        copies: Sequence[_Copy],
+        *,
+        is_double: bool,
+        preset: str | None,
+        split: str | None,
+        leaf_size: int | None,
+        max_depth: int | None,
+        memory_limit: int | None,
+        threads: int | None,
+        progress: _Progress,
+    ) -> Tree: ...
+    @property
+    def bounds(self) -> NDArray[np.float64] | None: ...
+    @property
+    def face_count(self) -> int: ...
+    @property
+    def is_double(self) -> bool: ...
+    @property
+    def vertices(self) -> FloatArray: ...
+    @property
+    def faces(self) -> NDArray[np.uint32]: ...
+    def closest_hit(
+        self,
+        rays: RayArrays,
+        *,
+        is_double: bool,
+        lenient: bool,
+        mask: int,
+        threads: int | None,
+        progress: _Progress,
+    ) -> _HitArrays: ...
+    def any_hit(
+        self,
+        rays: RayArrays,
+        *,
+        lenient: bool,
+        mask: int,
+        threads: int | None,
+        progress: _Progress,
+    ) -> NDArray[np.bool_]: ...
+    def count(
+        self,
+        rays: RayArrays,
+        *,
+        lenient: bool,
+        mask: int,
+        threads: int | None,
+        progress: _Progress,
+    ) -> NDArray[np.int32]: ...
+    def all_hits(
+        self,
+        rays: RayArrays,
+        *,
+        is_double: bool,
+        limit: int | None,
+        lenient: bool,
+        mask: int,
+        threads: int | None,
+        progress: _Progress,
+    ) -> tuple[NDArray[np.int64], _HitArrays]: ...
+    def normals(
+        self,
+        primitive_id: NDArray[np.int32],
+        geometry_id: NDArray[np.int32],
+        instance_id: NDArray[np.int32],
+    ) -> NDArray[np.float64]: ...
+    def positions(
+        self,
+        primitive_id: NDArray[np.int32],
+        geometry_id: NDArray[np.int32],
+        instance_id: NDArray[np.int32],
+        u: NDArray[np.float64],
+        v: NDArray[np.float64],
+    ) -> NDArray[np.float64]: ...

@@ -1,0 +1,44 @@
+"""What can go wrong. Every message names what is to blame, and says what to do."""
+
+__all__ = [
+    "ArgumentError",
+    "ArgumentTypeError",
+    "BuildError",
+    "InternalError",
+    "KdrayError",
+    "SceneError",
+    "TreeFileError",
+    "UnsupportedError",
+]
+
+
+class KdrayError(Exception):
+    """Whatever kdray raises of its own."""
+
+
+class ArgumentError(KdrayError, ValueError):
+    """An argument has a value that cannot be used: a shape, a NaN, an index out of range."""
+
+
+class ArgumentTypeError(KdrayError, TypeError):
+    """An argument is of a type, or an array of a dtype, that cannot be used."""
+
+
+class BuildError(KdrayError, RuntimeError):
+    """There is no tree over these triangles."""
+
+
+class SceneError(KdrayError, RuntimeError):
+    """The scene is not in the state that the call needs: it is built already, or not saved."""
+
+
+class UnsupportedError(KdrayError, NotImplementedError):
+    """kdray cannot do this, for now."""
+
+
+class TreeFileError(KdrayError, OSError):
+    """A file is not there any more, has changed, or is none that can be used."""
+
+
+class InternalError(KdrayError, RuntimeError):
+    """A mistake in kdray itself."""

@@ -1,0 +1,242 @@
+"""Scenes."""
+
+from __future__ import annotations
+
+from threading import Lock
+from typing import TYPE_CHECKING, Any, Optional
+
+import numpy as np
+from numpy.typing import ArrayLike, DTypeLike, NDArray
+
+from ._kdray import Mesh, Tree
+from .arrays import FloatArray, face_indices, vectors
+from .errors import ArgumentError, ArgumentTypeError, SceneError, UnsupportedError
+from .meshes import triangles_of
+from .progress import Progress, telling
+from .ray_queries import RayQueries
+from .whole import ALL, mask_bits, whole, whole_or_none
+
+if TYPE_CHECKING:
+    from ._kdray import _Copy
+
+
+class Scene(RayQueries):
+    """Triangles with a tree over them, to be asked from any thread.
+
+    >>> scene = Scene()
+    >>> scene.add_triangles([[0, 0, 2], [1, 0, 2], [0, 1, 2]], [[0, 1, 2]])
+    0
+    >>> scene.any_hit([[0.25, 0.25, 0], [0.75, 0.75, 0]], [0, 0, 1])
+    array([ True, False])
+
+    The tree is built by ``build``, or by the first query; nothing can be added any more then.
+    """
+
+    def __init__(
+        self,
+        vertices: Optional[ArrayLike] = None,
+        faces: Optional[ArrayLike] = None,
+        *,
+        dtype: Optional[DTypeLike] = None,
+    ) -> None:
+        """A scene without triangles, or with those of one mesh.
+
+        ``dtype`` is the precision of all vertices, float32 or float64. Without it they are float32 if those of
+        all geometries are, else float64; whole numbers become float64.
+        """
+        self._dtype = _precision(dtype)
+        self._meshes: list[Mesh] = []
+        self._copies: list[_Copy] = []
+        self._tree: Optional[Tree] = None
+        self._lock = Lock()
+        if vertices is not None and faces is not None:
+            self.add_triangles(vertices, faces)
+        elif vertices is not None or faces is not None:
+            raise ArgumentError("vertices, faces: give both, or neither")
+
+    @classmethod
+    def of(cls, mesh: Any, *, dtype: Optional[DTypeLike] = None) -> Scene:
+        """The scene of one mesh: see ``add``."""
+        scene = cls(dtype=dtype)
+        scene.add(mesh)
+        return scene
+
+    def add_triangles(self, vertices: ArrayLike, faces: ArrayLike) -> int:
+        """Adds a geometry: vertices (n, 3), and faces (m, 3) of three vertices each. Returns its id.
+
+        Both are copied. Vertices that no face uses may be anything; all others are finite. Faces without area
+        are kept, and no ray hits them.
+        """
+        points = vectors("vertices", vertices) if np.size(vertices) else np.zeros((0, 3), np.float32)
+        if points.ndim != 2:
+            raise ArgumentError(f"vertices: give an array of shape (n, 3), not {points.shape}")
+        if self._dtype is not None:
+            points = points.astype(self._dtype, copy=False)
+        mesh = Mesh(np.ascontiguousarray(points), face_indices(faces))
+        with self._changing():
+            self._meshes.append(mesh)
+            return len(self._meshes) - 1
+
+    def add(self, mesh: Any) -> int:
+        """Adds a ``trimesh.Trimesh`` or an Open3D mesh of either kind as a geometry. Returns its id."""
+        return self.add_triangles(*triangles_of(mesh))
+
+    def add_instance(self, geometry_id: int, transform: ArrayLike, *, mask: int = ALL) -> int:
+        """Adds a copy of a geometry, placed by a matrix (3, 4) or (4, 4) into the world. Returns its id.
+
+        A geometry that has instances is where these are, and there only; give the identity as well to
+        keep it where it is. Rays see instances whose ``mask`` shares a bit with their own.
+        """
+        matrix = np.asarray(vectors("transform", transform, 4), dtype=np.float64)
+        if matrix.shape == (4, 4):
+            if not np.array_equal(matrix[3], [0, 0, 0, 1]):
+                raise ArgumentError("transform: the last row is not 0, 0, 0, 1; give an affine matrix")
+            matrix = matrix[:3]
+        if matrix.shape != (3, 4):
+            raise ArgumentError(f"transform: give an array of shape (3, 4) or (4, 4), not {matrix.shape}")
+        geometry = whole("geometry_id", geometry_id)
+        if not 0 <= geometry < len(self._meshes):
+            text = f"geometry_id: there is no geometry {geometry}; there are {len(self._meshes)}"
+            raise ArgumentError(text)
+        with self._changing():
+            self._copies.append((geometry, matrix.tolist(), mask_bits(mask)))
+            return len(self._copies) - 1
+
+    def build(
+        self,
+        preset: Optional[str] = None,
+        *,
+        split: Optional[str] = None,
+        leaf_size: Optional[int] = None,
+        max_depth: Optional[int] = None,
+        memory_limit: Optional[int] = None,
+        threads: Optional[int] = None,
+        progress: Progress = None,
+    ) -> Scene:
+        """Builds the tree, and returns the scene. Without it the first query does, by what is standard.
+
+        The words are those of the command ``kdray``: ``preset`` is ``"fast"``, ``"balanced"`` (without it) or
+        ``"best"``, for how long the build may take for how fast a tree; ``split`` instead is ``"sah"``,
+        ``"middle"``, ``"median"`` or ``"round-robin"``, for a tree of the lecture, with its slower traversal.
+        Nodes of ``leaf_size`` triangles are not cut, nor are those at ``max_depth``. A build that is expected to
+        take more than ``memory_limit`` bytes is refused. The tree is the same for any number of threads.
+        """
+        options = {"leaf_size": leaf_size, "max_depth": max_depth, "memory_limit": memory_limit}
+        with self._lock:
+            if self._tree is not None:
+                raise SceneError("the scene is built already; make a new one to build it otherwise")
+            self._build(preset, split, options, threads, progress)
+        return self
+
+    @property
+    def is_built(self) -> bool:
+        """Whether the tree is there, and nothing can be added any more."""
+        return self._tree is not None
+
+    @property
+    def dtype(self) -> np.dtype[Any]:
+        """The precision of the vertices, float32 or float64."""
+        if self._tree is not None:
+            is_double = self._tree.is_double
+        elif self._dtype is not None:
+            return self._dtype
+        else:
+            is_double = any(mesh.is_double for mesh in self._meshes)
+        return np.dtype(np.float64 if is_double else np.float32)
+
+    @property
+    def vertices(self) -> FloatArray:
+        """A copy of the vertices (n, 3): those of the first geometry, then those of the next."""
+        if self._tree is not None:
+            return self._tree.vertices
+        lists = [mesh.vertices for mesh in self._meshes]
+        empty = np.zeros((0, 3), self.dtype)
+        return np.concatenate([empty, *lists]).astype(self.dtype, copy=False)
+
+    @property
+    def faces(self) -> NDArray[np.uint32]:
+        """A copy of the faces (m, 3) of all geometries, by the indices of ``vertices``."""
+        if self._tree is not None:
+            return self._tree.faces
+        faces, before = [np.zeros((0, 3), np.uint32)], 0
+        for mesh in self._meshes:
+            faces.append(mesh.faces + np.uint32(before))
+            before += mesh.vertex_count
+        return np.concatenate(faces)
+
+    @property
+    def bounds(self) -> Optional[NDArray[np.float64]]:
+        """The box (2, 3) that holds all triangles, by its lower and its upper corner; None without any.
+
+        With instances, it is a little larger. Asking for it builds the tree.
+        """
+        return self._built().bounds
+
+    def __len__(self) -> int:
+        """How many triangles there are, each geometry counted once."""
+        if self._tree is not None:
+            return self._tree.face_count
+        return sum(mesh.face_count for mesh in self._meshes)
+
+    def __bool__(self) -> bool:
+        """A scene is true, even without triangles."""
+        return True
+
+    def __repr__(self) -> str:
+        state = "built" if self.is_built else "not built"
+        return f"<kdray.Scene: {len(self)} triangles, {self.dtype}, {state}>"
+
+    def _built(self) -> Tree:
+        tree = self._tree
+        if tree is None:
+            with self._lock:
+                tree = self._tree or self._build(None, None, {}, None, None)
+        return tree
+
+    def _build(
+        self,
+        preset: Optional[str],
+        split: Optional[str],
+        options: dict[str, Optional[int]],
+        threads: Optional[int],
+        progress: Progress,
+    ) -> Tree:
+        is_double = self.dtype == np.float64
+        if is_double and self._copies:
+            text = "dtype: instances of float64 geometries are not supported; give float32 vertices"
+            raise UnsupportedError(text)
+        numbers = {name: whole_or_none(name, number) for name, number in options.items()}
+        with telling(progress, "triangle") as told:
+            self._tree = Tree.build(
+                self._meshes,
+                self._copies,
+                is_double=is_double,
+                preset=preset,
+                split=split,
+                leaf_size=numbers.get("leaf_size"),
+                max_depth=numbers.get("max_depth"),
+                memory_limit=numbers.get("memory_limit"),
+                threads=whole_or_none("threads", threads),
+                progress=told,
+            )
+        # The tree has copies of its own.
+        self._meshes, self._copies = [], []
+        return self._tree
+
+    def _changing(self) -> Lock:
+        """The lock that is held while something is added."""
+        if self._tree is not None:
+            raise SceneError("the scene is built, and cannot be changed any more; make a new one")
+        return self._lock
+
+
+def _precision(dtype: Optional[DTypeLike]) -> Optional[np.dtype[Any]]:
+    if dtype is None:
+        return None
+    try:
+        precision = np.dtype(dtype)
+    except TypeError as error:
+        raise ArgumentTypeError(f"dtype: give float32 or float64: {error}") from error
+    if precision not in (np.float32, np.float64):
+        raise ArgumentTypeError(f"dtype: give float32 or float64, not {precision}")
+    return precision

@@ -1,0 +1,150 @@
+//! Work on other threads, while the interpreter is free for others, and what the caller looks after meanwhile.
+
+use crate::{error, pool};
+use pyo3::{Py, PyAny, PyErr, PyResult, Python};
+use rayon::prelude::*;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering::Relaxed};
+use std::sync::mpsc::{RecvTimeoutError, sync_channel};
+use std::time::Duration;
+
+/// How often the caller looks whether somebody wants to end the work, and tells how far it is.
+const TICK: Duration = Duration::from_millis(50);
+
+/// How a call is carried out.
+#[derive(Debug)]
+pub(crate) struct Job {
+    /// On how many threads.
+    threads: usize,
+    /// What is told how far it is: a function of what is done and what there is in all.
+    progress: Option<Py<PyAny>>,
+}
+
+/// What the work and its caller tell each other.
+#[derive(Debug, Default)]
+pub(crate) struct Control {
+    done: AtomicU64,
+    stopped: AtomicBool,
+}
+
+impl Control {
+    /// Whether the work is to end.
+    pub(crate) fn is_stopped(&self) -> bool {
+        self.stopped.load(Relaxed)
+    }
+
+    /// Ends the work.
+    pub(crate) fn stop(&self) {
+        self.stopped.store(true, Relaxed);
+    }
+
+    /// That so much more is done.
+    pub(crate) fn add(&self, more: usize) {
+        self.done.fetch_add(more as u64, Relaxed);
+    }
+
+    /// That so much is done.
+    pub(crate) fn set(&self, done: u64) {
+        self.done.store(done, Relaxed);
+    }
+}
+
+impl Job {
+    /// By the arguments of a call.
+    pub(crate) fn new(threads: Option<i64>, progress: Option<Py<PyAny>>) -> PyResult<Self> {
+        Ok(Self { threads: pool::threads(threads)?, progress })
+    }
+
+    /// Does `work`, of `total` parts, on the threads of a pool. What Ctrl-C, or the function that is told of
+    /// the progress, raises, ends it; a panic is an exception.
+    pub(crate) fn run<R: Send>(
+        &self,
+        py: Python<'_>,
+        total: u64,
+        work: impl FnOnce(&Control) -> PyResult<R> + Send,
+    ) -> PyResult<R> {
+        let control = Control::default();
+        let answer = py.detach(|| self.watched(&control, total, work))?;
+        py.check_signals()?;
+        self.tell(py, total, total)?;
+        Ok(answer)
+    }
+
+    fn watched<R: Send>(
+        &self,
+        control: &Control,
+        total: u64,
+        work: impl FnOnce(&Control) -> PyResult<R> + Send,
+    ) -> PyResult<R> {
+        let pool = pool::pool(self.threads)?;
+        let (sender, receiver) = sync_channel(1);
+        pool.in_place_scope(|scope| {
+            scope.spawn(move |_| {
+                // The caller waits for it, or is gone with the channel.
+                let _ = sender.send(caught(|| work(control)));
+            });
+            let mut raised = None;
+            loop {
+                match receiver.recv_timeout(TICK) {
+                    Ok(answer) => break raised.map_or(answer, Err),
+                    Err(RecvTimeoutError::Timeout) if raised.is_none() => {
+                        raised = self.look(control, total).err();
+                    }
+                    Err(RecvTimeoutError::Timeout) => {}
+                    Err(RecvTimeoutError::Disconnected) => {
+                        break Err(error::of_panic(&"the work ended without an answer"));
+                    }
+                }
+            }
+        })
+    }
+
+    /// Looks whether the work is to end, and tells how far it is.
+    fn look(&self, control: &Control, total: u64) -> PyResult<()> {
+        let looked = Python::attach(|py| {
+            py.check_signals()?;
+            self.tell(py, control.done.load(Relaxed).min(total), total)
+        });
+        looked.inspect_err(|_| control.stop())
+    }
+
+    fn tell(&self, py: Python<'_>, done: u64, total: u64) -> PyResult<()> {
+        let Some(progress) = &self.progress else { return Ok(()) };
+        progress.call1(py, (done, total)).map(drop)
+    }
+}
+
+/// Does little work at once on this thread, where handing it to others would take longer.
+pub(crate) fn at_once<R: Send>(
+    py: Python<'_>,
+    work: impl FnOnce(&Control) -> PyResult<R> + Send,
+) -> PyResult<R> {
+    py.detach(|| caught(|| work(&Control::default())))
+}
+
+fn caught<R>(work: impl FnOnce() -> PyResult<R>) -> PyResult<R> {
+    let answer = catch_unwind(AssertUnwindSafe(work));
+    answer.unwrap_or_else(|payload| Err(error::of_panic(&*payload)))
+}
+
+/// Does each part of the work, on all threads of the pool that this is called in, until one fails or all is to
+/// end. A single part is done on this thread, whichever it is.
+pub(crate) fn each_part<P: Send, S>(
+    control: &Control,
+    parts: Vec<P>,
+    scratch: impl Fn() -> S + Send + Sync,
+    work: impl Fn(&mut S, P) -> PyResult<()> + Send + Sync,
+) -> PyResult<()> {
+    let one = |scratch: &mut S, part: P| {
+        if control.is_stopped() {
+            Ok(())
+        } else {
+            work(scratch, part).inspect_err(|_: &PyErr| control.stop())
+        }
+    };
+    if parts.len() <= 1 {
+        let mut scratch = scratch();
+        return parts.into_iter().try_for_each(|part| one(&mut scratch, part));
+    }
+    parts.into_par_iter().map_init(scratch, one).collect()
+}

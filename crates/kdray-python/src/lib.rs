@@ -1,0 +1,31 @@
+//! The part of the Python package `kdray` that is compiled: the module `kdray._kdray`.
+//!
+//! The package's own files, in `python/kdray`, are what users see. They make all numbers arrays of f32 or f64
+//! of one shape, and name what comes back; this module reads those arrays where they lie, lets go of the
+//! interpreter, and asks the library on threads of its own. `_kdray.pyi` tells its interface.
+
+#![forbid(unsafe_code)]
+
+mod all_hits;
+mod any_hit;
+mod build;
+mod cast;
+mod closest_hit;
+mod columns;
+mod error;
+mod job;
+mod mesh;
+mod pool;
+mod rays;
+mod rows;
+mod surface;
+mod tree;
+
+/// What `kdray` has compiled. Use the package `kdray` itself.
+#[pyo3::pymodule]
+mod _kdray {
+    #[pymodule_export]
+    use crate::mesh::Mesh;
+    #[pymodule_export]
+    use crate::tree::Tree;
+}

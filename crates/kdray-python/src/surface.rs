@@ -1,0 +1,175 @@
+//! What the triangles of a scene are: vertices, faces, normals, points.
+
+use crate::mesh::rows;
+use crate::tree::{Kind, Places, Tree};
+use glam::DVec3;
+use kdray::{Coordinate, Scene, TriangleMesh};
+use numpy::ndarray::ArrayView1;
+use pyo3::{Bound, PyAny, PyResult, Python};
+
+/// Which triangles: those of geometries, and the instances that place them.
+type Ids<'a> = [ArrayView1<'a, i32>; 3];
+
+/// A geometry's mesh.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum AMesh<'a> {
+    F32(&'a TriangleMesh<f32>),
+    F64(&'a TriangleMesh<f64>),
+}
+
+impl AMesh<'_> {
+    pub(crate) fn triangles(&self) -> &[[u32; 3]] {
+        match self {
+            Self::F32(mesh) => mesh.triangles(),
+            Self::F64(mesh) => mesh.triangles(),
+        }
+    }
+
+    fn vertex_count(&self) -> usize {
+        match self {
+            Self::F32(mesh) => mesh.vertices().len(),
+            Self::F64(mesh) => mesh.vertices().len(),
+        }
+    }
+
+    fn corners(&self, id: u32) -> [[f64; 3]; 3] {
+        match self {
+            Self::F32(mesh) => mesh.corners(id).map(|p| p.map(f64::from)),
+            Self::F64(mesh) => mesh.corners(id),
+        }
+    }
+}
+
+/// The meshes that the trees are over: those of each geometry where there are instances, else one of all.
+pub(crate) fn meshes(tree: &Tree) -> impl Iterator<Item = AMesh<'_>> {
+    let (one, several) = match &tree.kind {
+        Kind::F32(scene) => (Some(AMesh::F32(scene.mesh())), [].iter()),
+        Kind::F64(scene) => (Some(AMesh::F64(scene.mesh())), [].iter()),
+        Kind::Instanced(scene) => (None, scene.geometries().iter()),
+    };
+    one.into_iter().chain(several.map(|scene: &Scene| AMesh::F32(scene.mesh())))
+}
+
+/// The corners of the box around all triangles.
+pub(crate) fn bounds(tree: &Tree) -> Option<[[f64; 3]; 2]> {
+    match &tree.kind {
+        Kind::F32(scene) => bounds_of(scene.mesh()),
+        Kind::F64(scene) => bounds_of(scene.mesh()),
+        Kind::Instanced(scene) => {
+            let bounds = scene.tree().bounds();
+            (!bounds.is_empty()).then(|| [bounds.min, bounds.max].map(|p| p.map(f64::from)))
+        }
+    }
+}
+
+fn bounds_of<T: Coordinate>(mesh: &TriangleMesh<T>) -> Option<[[f64; 3]; 2]> {
+    let (mut min, mut max) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+    for &vertex in mesh.triangles().as_flattened() {
+        let position = mesh.vertices()[vertex as usize].map(T::to_f64);
+        for (k, x) in position.into_iter().enumerate() {
+            (min[k], max[k]) = (min[k].min(x), max[k].max(x));
+        }
+    }
+    (!mesh.triangles().is_empty()).then_some([min, max])
+}
+
+/// The vertices of all geometries as one array.
+pub(crate) fn vertices<'py>(tree: &Tree, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+    match &tree.kind {
+        Kind::F32(scene) => rows(py, scene.mesh().vertices()),
+        Kind::F64(scene) => rows(py, scene.mesh().vertices()),
+        Kind::Instanced(scene) => {
+            let lists: Vec<_> = scene.geometries().iter().map(|it| it.mesh().vertices()).collect();
+            rows(py, &lists.concat())
+        }
+    }
+}
+
+/// The faces of all geometries, by the indices of all vertices.
+pub(crate) fn faces(tree: &Tree) -> Vec<[u32; 3]> {
+    let (mut faces, mut before) = (Vec::new(), 0);
+    for mesh in meshes(tree) {
+        faces.extend(mesh.triangles().iter().map(|face| face.map(|vertex| vertex + before)));
+        before += mesh.vertex_count() as u32;
+    }
+    faces
+}
+
+/// Unit normals; NaN where there is no such triangle, or it has no area.
+pub(crate) fn normals(tree: &Tree, ids: Ids<'_>) -> Vec<[f64; 3]> {
+    each(tree, ids, |_, placed| {
+        let [a, b, c] = placed.corners.map(DVec3::from);
+        // Scaled, so that neither squares nor products leave the range of f64.
+        let scale = (b - a).abs().max((c - a).abs()).max_element();
+        let normal = ((b - a) / scale).cross((c - a) / scale).try_normalize()?;
+        Some(if placed.is_mirrored { -normal } else { normal }.into())
+    })
+}
+
+/// The points with the weights u and v; NaN where there is no such triangle.
+pub(crate) fn positions(
+    tree: &Tree,
+    ids: Ids<'_>,
+    [u, v]: [ArrayView1<'_, f64>; 2],
+) -> Vec<[f64; 3]> {
+    each(tree, ids, |index, placed| {
+        let [a, b, c] = placed.corners;
+        let (u, v) = (*u.get(index)?, *v.get(index)?);
+        Some([0, 1, 2].map(|k| (1.0 - u - v) * a[k] + u * b[k] + v * c[k]))
+    })
+}
+
+/// A triangle where it is in the world.
+struct Placed {
+    corners: [[f64; 3]; 3],
+    /// Whether its instance's matrix turns left to right; the front stays the front.
+    is_mirrored: bool,
+}
+
+/// What `find` makes of each triangle, and of its index.
+fn each(
+    tree: &Tree,
+    [primitives, geometries, instances]: Ids<'_>,
+    find: impl Fn(usize, Placed) -> Option<[f64; 3]>,
+) -> Vec<[f64; 3]> {
+    let meshes: Vec<_> = meshes(tree).collect();
+    let ids = primitives.iter().zip(geometries).zip(instances);
+    let found = ids.enumerate().map(|(index, ((&primitive, &geometry), &instance))| {
+        find(index, place(tree, &meshes, primitive, geometry, instance)?)
+    });
+    found.map(|vector| vector.unwrap_or([f64::NAN; 3])).collect()
+}
+
+/// The triangle where its instance puts it; none if there is no such triangle.
+fn place(
+    tree: &Tree,
+    meshes: &[AMesh<'_>],
+    primitive: i32,
+    geometry: i32,
+    instance: i32,
+) -> Option<Placed> {
+    let (primitive, geometry) = (u32::try_from(primitive).ok()?, usize::try_from(geometry).ok()?);
+    let (mesh, id) = match &tree.places {
+        Places::One => (meshes.first()?, primitive),
+        Places::Many(firsts) => (meshes.first()?, firsts.get(geometry)?.checked_add(primitive)?),
+        Places::Instances(_) => (meshes.get(geometry)?, primitive),
+    };
+    if id as usize >= mesh.triangles().len() {
+        return None;
+    }
+    let corners = mesh.corners(id);
+    match &tree.kind {
+        Kind::Instanced(scene) if instance >= 0 => {
+            let to_world = &scene.instances().get(instance as usize)?.to_world;
+            let axis = |k: usize| DVec3::from(to_world.map(|row| row[k]));
+            let is_mirrored = axis(0).cross(axis(1)).dot(axis(2)) < 0.0;
+            Some(Placed { corners: corners.map(|it| moved(to_world, it)), is_mirrored })
+        }
+        _ => Some(Placed { corners, is_mirrored: false }),
+    }
+}
+
+/// The world's point for one of a geometry.
+fn moved(to_world: &[[f64; 4]; 3], [x, y, z]: [f64; 3]) -> [f64; 3] {
+    to_world.map(|[a, b, c, offset]| a * x + b * y + c * z + offset)
+}

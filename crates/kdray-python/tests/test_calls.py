@@ -1,0 +1,197 @@
+"""How calls are carried out: threads, progress, interrupts."""
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import numpy as np
+import pytest
+from conftest import CUBE_FACES, CUBE_VERTICES, random_rays, sphere
+
+import kdray
+
+
+def test_threads_change_nothing(ball, monkeypatch):
+    rays = random_rays(20_000)
+    one = ball.closest_hit(rays, threads=1)
+    every = ball.all_hits(rays, threads=1)
+    for threads in (2, 3, 8):
+        np.testing.assert_array_equal(ball.closest_hit(rays, threads=threads).t, one.t)
+        np.testing.assert_array_equal(ball.all_hits(rays, threads=threads).u, every.u)
+    monkeypatch.setenv("KDRAY_THREADS", "3")
+    np.testing.assert_array_equal(ball.closest_hit(rays).t, one.t)
+
+
+def test_the_environment_says_how_many_threads():
+    program = (
+        "import kdray, numpy as np, os\n"
+        "scene = kdray.Scene([[0, 0, 2], [1, 0, 2], [0, 1, 2]], [[0, 1, 2]])\n"
+        "scene.any_hit(np.ones((5000, 6)))\n"
+        "names = [open(f'/proc/self/task/{task}/comm').read() for task in os.listdir('/proc/self/task')]\n"
+        "print(sum(name.startswith('kdray') for name in names))\n"
+    )
+    if not os.path.exists("/proc/self/task"):
+        pytest.skip("the system does not list threads")
+    for variables, expected in [
+        ({"KDRAY_THREADS": "3"}, 3),
+        ({"RAYON_NUM_THREADS": "4"}, 4),
+        ({"KDRAY_THREADS": "2", "RAYON_NUM_THREADS": "5"}, 2),
+    ]:
+        others = {k: v for k, v in os.environ.items() if k not in ("KDRAY_THREADS", "RAYON_NUM_THREADS")}
+        run = [sys.executable, "-c", program]
+        told = subprocess.run(run, env=others | variables, capture_output=True, text=True, check=True)
+        assert int(told.stdout) == expected
+
+
+def test_other_threads_run_meanwhile(large):
+    rays = random_rays(400_000)
+    counted, done = 0, threading.Event()
+
+    def ask():
+        large.all_hits(rays, threads=1)
+        done.set()
+
+    asking = threading.Thread(target=ask)
+    asking.start()
+    while not done.is_set():
+        counted += 1
+        time.sleep(0.001)
+    asking.join()
+    assert counted > 20, "this thread hardly came to run"
+
+
+def test_many_threads_may_ask_and_the_first_builds():
+    scene, rays = kdray.Scene(*sphere(40)), random_rays(5000)
+    answers = [None] * 8
+
+    def ask(index):
+        answers[index] = scene.closest_hit(rays).t
+
+    threads = [threading.Thread(target=ask, args=(i,)) for i in range(8)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    for answer in answers:
+        np.testing.assert_array_equal(answer, answers[0])
+
+
+@pytest.mark.parametrize("query", ["closest_hit", "any_hit", "count", "all_hits"])
+def test_an_interrupt_ends_a_query(large, query):
+    # Strides of zero: no end of rays, and no memory.
+    rays = np.broadcast_to(random_rays(1)[0], (10**9 if query != "all_hits" else 10**8, 6))
+    if query in ("closest_hit", "count"):
+        rays = rays[: 10**8]
+    previous = signal.signal(signal.SIGALRM, signal.default_int_handler)
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 0.3)
+        started = time.monotonic()
+        with pytest.raises(KeyboardInterrupt):
+            getattr(large, query)(rays, threads=1)
+        assert time.monotonic() - started < 3
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, previous)
+    assert large.any_hit(rays[0])
+
+
+def test_an_interrupt_ends_a_build():
+    scene = kdray.Scene(*sphere(300))
+    previous = signal.signal(signal.SIGALRM, signal.default_int_handler)
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 0.05)
+        with pytest.raises(KeyboardInterrupt):
+            scene.build("best", threads=1)
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, previous)
+    assert not scene.is_built and len(scene) == 4 * 300 * 299
+    scene.build("fast")
+
+
+def test_progress_is_told(ball):
+    told = []
+    ball.closest_hit(random_rays(200_000), progress=lambda done, total: told.append((done, total)), threads=1)
+    assert told[-1] == (200_000, 200_000)
+    assert all(total == 200_000 for _, total in told) and told == sorted(told)
+    told.clear()
+    kdray.Scene(*sphere(30)).build(progress=lambda done, total: told.append((done, total)))
+    assert told[-1][0] == told[-1][1] > 0
+
+
+def test_what_the_progress_function_raises_ends_the_call(large):
+    def tell(done, total):
+        raise LookupError("enough")
+
+    with pytest.raises(LookupError, match="enough"):
+        large.any_hit(np.broadcast_to(random_rays(1)[0], (10**9, 6)), progress=tell)
+
+
+def test_progress_by_tqdm(ball, capsys, monkeypatch):
+    ball.any_hit(random_rays(5000), progress=True)
+    assert "5.00k/5.00k" in capsys.readouterr().err
+    monkeypatch.setitem(sys.modules, "tqdm.auto", None)
+    with pytest.raises(kdray.UnsupportedError, match="pip install tqdm"):
+        ball.any_hit(random_rays(5), progress=True)
+
+
+def test_a_fork_can_ask():
+    if not hasattr(os, "fork"):
+        pytest.skip("the system does not fork")
+    program = (
+        "import kdray, numpy as np, os, sys\n"
+        "scene = kdray.Scene([[0, 0, 2], [1, 0, 2], [0, 1, 2]], [[0, 1, 2]])\n"
+        "rays = np.tile([0.25, 0.25, 0, 0, 0, 1], (5000, 1))\n"
+        "scene.any_hit(rays, threads=2)\n"
+        "child = os.fork()\n"
+        "ok = scene.any_hit(rays, threads=2).all()\n"
+        "sys.exit(not ok) if child == 0 else sys.exit(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))\n"
+    )
+    subprocess.run([sys.executable, "-c", program], check=True, timeout=30)
+
+
+def test_meshes_of_other_packages():
+    class Trimesh:
+        vertices, faces = CUBE_VERTICES.astype(float), CUBE_FACES
+
+    class Legacy:
+        vertices, triangles = CUBE_VERTICES.astype(float), CUBE_FACES.astype(np.int32)
+
+    class Tensor:
+        def __init__(self, array):
+            self.array = array
+
+        def numpy(self):
+            return self.array
+
+    class Attributes(dict):
+        __getattr__ = dict.__getitem__
+
+    class Modern:
+        vertex = Attributes(positions=Tensor(CUBE_VERTICES))
+        triangle = Attributes(indices=Tensor(CUBE_FACES))
+
+    for mesh, dtype in [(Trimesh(), np.float64), (Legacy(), np.float64), (Modern(), np.float32)]:
+        scene = kdray.Scene.of(mesh)
+        assert scene.dtype == dtype and scene.count([0.3, 0.2, -1, 0, 0, 1]) == 2
+    assert kdray.Scene.of(Trimesh(), dtype=np.float32).dtype == np.float32
+
+
+def test_importing_is_quick_and_needs_numpy_alone():
+    program = (
+        "import time, sys\n"
+        "import numpy\n"
+        "before = set(sys.modules)\n"
+        "start = time.perf_counter()\n"
+        "import kdray\n"
+        "took = time.perf_counter() - start\n"
+        "others = {name.split('.')[0] for name in set(sys.modules) - before}\n"
+        "print(took, *others & {'tqdm', 'trimesh', 'open3d', 'dask', 'PIL', 'scipy', 'matplotlib'})\n"
+    )
+    run = [sys.executable, "-c", program]
+    tries = [subprocess.run(run, capture_output=True, text=True, check=True).stdout.split() for _ in range(3)]
+    assert all(len(words) == 1 for words in tries), "something heavy was imported"
+    assert min(float(words[0]) for words in tries) < 0.1
