@@ -18,7 +18,7 @@ pub(crate) fn options(
     split: Option<&str>,
     leaf_size: Option<i64>,
     max_depth: Option<i64>,
-    memory_limit: Option<u64>,
+    memory_limit: Option<i64>,
 ) -> PyResult<BuildOptions> {
     let options = match (preset, split) {
         (Some(_), Some(_)) => {
@@ -41,6 +41,9 @@ pub(crate) fn options(
     let leaf_size = leaf_size.map(|size| whole("leaf_size", size, 1 << 30)).transpose()?;
     let max_depth = max_depth.map(|depth| whole("max_depth", depth, MAX_DEPTH)).transpose()?;
     let leaf_size = leaf_size.unwrap_or(options.leaf_size);
+    let bytes =
+        |limit: i64| u64::try_from(limit).map_err(|_| argument("memory_limit", "give bytes"));
+    let memory_limit = memory_limit.map(bytes).transpose()?;
     Ok(BuildOptions { leaf_size, max_depth, memory_limit, ..options })
 }
 
@@ -59,7 +62,7 @@ pub(crate) fn build(
         } else {
             Kind::F32(scene(joined(meshes)?, options, control, 0..total)?)
         };
-        Ok(Tree { kind, places: places(meshes) })
+        Ok(Tree { places: places(meshes), ..Tree::from(kind) })
     })
 }
 
@@ -93,7 +96,7 @@ pub(crate) fn build_instanced(
         let instances = instances.chain(as_they_are).collect();
         let scene = InstancedScene::build(geometries, instances);
         let scene = scene.map_err(|error| argument("transform", error))?;
-        Ok(Tree { kind: Kind::Instanced(scene), places: Places::Instances(placed) })
+        Ok(Tree { places: Places::Instances(placed), ..Tree::from(Kind::Instanced(scene)) })
     })
 }
 

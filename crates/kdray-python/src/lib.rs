@@ -11,10 +11,13 @@ mod any_hit;
 mod build;
 mod cast;
 mod closest_hit;
+mod closest_point;
 mod columns;
 mod error;
 mod job;
 mod mesh;
+mod point_queries;
+mod points;
 mod pool;
 mod rays;
 mod rows;
@@ -26,6 +29,10 @@ mod tree;
 mod _kdray {
     #[pymodule_export]
     use crate::mesh::Mesh;
+    #[pymodule_export]
+    use crate::point_queries::{
+        closest_point, contains, signed_distance, thickness, visible, winding_number,
+    };
     #[pymodule_export]
     use crate::tree::Tree;
 }

@@ -13,7 +13,7 @@ use crate::surface;
 use kdray::{InstancedScene, Scene};
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::{Bound, Py, PyAny, PyResult, Python, pyclass, pymethods};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// A built scene, to be asked from any thread.
 #[pyclass(frozen, module = "kdray._kdray")]
@@ -21,6 +21,8 @@ use std::sync::Arc;
 pub(crate) struct Tree {
     pub(crate) kind: Kind,
     pub(crate) places: Places,
+    /// Whether it is known if the mesh is closed.
+    pub(crate) prepared: Arc<OnceLock<()>>,
 }
 
 /// What is asked.
@@ -42,6 +44,13 @@ macro_rules! for_scene {
     };
 }
 pub(crate) use for_scene;
+
+impl From<Kind> for Tree {
+    /// All of it is one geometry.
+    fn from(kind: Kind) -> Self {
+        Self { kind, places: Places::One, prepared: Arc::default() }
+    }
+}
 
 /// Which geometry a triangle of the scene is part of.
 #[derive(Clone, Debug)]
@@ -72,6 +81,20 @@ impl Places {
     /// Whether there are instances.
     pub(crate) fn are_instances(&self) -> bool {
         matches!(self, Self::Instances(_))
+    }
+
+    /// The index of a triangle among those of all geometries, if it may be there; not where there are
+    /// instances.
+    pub(crate) fn index(&self, primitive_id: i32, geometry_id: i32) -> Option<u32> {
+        let primitive = u32::try_from(primitive_id).ok()?;
+        match self {
+            Self::One => Some(primitive),
+            Self::Many(firsts) => {
+                let first = firsts.get(usize::try_from(geometry_id).ok()?)?;
+                first.checked_add(primitive)
+            }
+            Self::Instances(_) => None,
+        }
     }
 
     /// The place of a hit. Ids are less than 2^30.
@@ -111,7 +134,7 @@ impl Tree {
         split: Option<&str>,
         leaf_size: Option<i64>,
         max_depth: Option<i64>,
-        memory_limit: Option<u64>,
+        memory_limit: Option<i64>,
         threads: Option<i64>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Self> {

@@ -27,9 +27,10 @@ def test_threads_change_nothing(ball, monkeypatch):
 
 def test_the_environment_says_how_many_threads():
     program = (
-        "import kdray, numpy as np, os\n"
+        "import kdray, numpy as np, os, time\n"
         "scene = kdray.Scene([[0, 0, 2], [1, 0, 2], [0, 1, 2]], [[0, 1, 2]])\n"
         "scene.any_hit(np.ones((5000, 6)))\n"
+        "time.sleep(0.2)\n"
         "names = [open(f'/proc/self/task/{task}/comm').read() for task in os.listdir('/proc/self/task')]\n"
         "print(sum(name.startswith('kdray') for name in names))\n"
     )

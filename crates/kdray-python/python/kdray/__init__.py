@@ -7,6 +7,7 @@
 (2.0, 0)
 """
 
+from .closest_points import ClosestPoints
 from .errors import (
     ArgumentError,
     ArgumentTypeError,
@@ -25,6 +26,7 @@ __all__ = [
     "ArgumentError",
     "ArgumentTypeError",
     "BuildError",
+    "ClosestPoints",
     "Hits",
     "InternalError",
     "KdrayError",

@@ -9,6 +9,17 @@ from numpy.typing import NDArray
 from .arrays import FloatArray
 from .rays import RayArrays
 
+__all__ = [
+    "Mesh",
+    "Tree",
+    "closest_point",
+    "contains",
+    "signed_distance",
+    "thickness",
+    "visible",
+    "winding_number",
+]
+
 _Progress = Optional[Callable[[int, int], object]]
 # t, u, v, primitive_id, front; geometry_id if there are several; instance_id if there are any
 _HitArrays = tuple[
@@ -19,6 +30,15 @@ _HitArrays = tuple[
     NDArray[np.bool_],
     Optional[NDArray[np.int32]],
     Optional[NDArray[np.int32]],
+]
+# point, distance, u, v, primitive_id, geometry_id
+_NearestArrays = tuple[
+    FloatArray,
+    FloatArray,
+    FloatArray,
+    FloatArray,
+    NDArray[np.int32],
+    NDArray[np.int32],
 ]
 # the geometry, three rows of a matrix into the world, the mask
 _Copy = tuple[int, Sequence[Sequence[float]], int]
@@ -120,3 +140,60 @@ class Tree:
         u: NDArray[np.float64],
         v: NDArray[np.float64],
     ) -> NDArray[np.float64]: ...
+
+def contains(
+    tree: Tree,
+    points: FloatArray,
+    *,
+    lenient: bool,
+    threads: int | None,
+    progress: _Progress,
+) -> NDArray[np.bool_]: ...
+def closest_point(
+    tree: Tree,
+    points: FloatArray,
+    *,
+    is_double: bool,
+    lenient: bool,
+    threads: int | None,
+    progress: _Progress,
+) -> _NearestArrays: ...
+def signed_distance(
+    tree: Tree,
+    points: FloatArray,
+    *,
+    is_double: bool,
+    lenient: bool,
+    threads: int | None,
+    progress: _Progress,
+) -> FloatArray: ...
+def winding_number(
+    tree: Tree,
+    points: FloatArray,
+    *,
+    is_double: bool,
+    lenient: bool,
+    threads: int | None,
+    progress: _Progress,
+) -> FloatArray: ...
+def visible(
+    tree: Tree,
+    points: FloatArray,
+    others: FloatArray,
+    *,
+    lenient: bool,
+    threads: int | None,
+    progress: _Progress,
+) -> NDArray[np.bool_]: ...
+def thickness(
+    tree: Tree,
+    primitive_id: NDArray[np.int32],
+    geometry_id: NDArray[np.int32],
+    u: NDArray[np.float64],
+    v: NDArray[np.float64],
+    *,
+    side: str,
+    is_double: bool,
+    threads: int | None,
+    progress: _Progress,
+) -> FloatArray: ...

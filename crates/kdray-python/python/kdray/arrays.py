@@ -20,9 +20,9 @@ def floats(name: str, values: ArrayLike) -> FloatArray:
     the caller calls them.
     """
     array = _array(name, values)
-    if array.dtype not in (np.float32, np.float64):
-        if array.dtype.kind not in "fiub":
-            raise ArgumentTypeError(f"{name}: give real numbers, not an array of {array.dtype}")
+    if array.dtype.kind not in "fiub":
+        raise ArgumentTypeError(f"{name}: give real numbers, not an array of {array.dtype}")
+    if array.dtype.newbyteorder("=") not in (np.float32, np.float64):
         return array.astype(np.float64)
     if not (array.flags.aligned and array.dtype.isnative):
         return np.array(array, dtype=array.dtype.newbyteorder("="))

@@ -11,14 +11,11 @@ from numpy.typing import ArrayLike, NDArray
 from .errors import ArgumentError
 from .hits import AllHits, Hits
 from .progress import Progress, telling
-from .rays import Rays
+from .rays import Rays, is_lenient
 from .whole import ALL, mask_bits, whole_or_none
 
 if TYPE_CHECKING:
     from ._kdray import Tree
-
-Invalid = Literal["raise", "miss"]
-"""What becomes of rays that cannot be traced."""
 
 
 class RayQueries:
@@ -47,8 +44,8 @@ class RayQueries:
     """
 
     @abstractmethod
-    def _built(self) -> Tree:
-        """The tree, which is built if need be."""
+    def _built(self, threads: Optional[int] = None) -> Tree:
+        """The tree, which is built on so many threads if need be."""
 
     def closest_hit(
         self,
@@ -58,14 +55,14 @@ class RayQueries:
         t_min: ArrayLike = 0.0,
         t_max: ArrayLike = np.inf,
         mask: int = ALL,
-        invalid: Invalid = "raise",
+        invalid: Literal["raise", "miss"] = "raise",
         threads: Optional[int] = None,
         progress: Progress = None,
     ) -> Hits:
         """The hit of least t of each ray; of several at the same t, the one of the smallest triangle."""
-        rays, lenient = Rays.of(origins, directions, t_min, t_max), _is_lenient(invalid)
+        rays, lenient = Rays.of(origins, directions, t_min, t_max), is_lenient(invalid)
         with telling(progress, "ray") as told:
-            tree = self._built()
+            tree = self._built(threads)
             arrays = tree.closest_hit(
                 rays.arrays,
                 is_double=rays.is_double,
@@ -84,14 +81,14 @@ class RayQueries:
         t_min: ArrayLike = 0.0,
         t_max: ArrayLike = np.inf,
         mask: int = ALL,
-        invalid: Invalid = "raise",
+        invalid: Literal["raise", "miss"] = "raise",
         threads: Optional[int] = None,
         progress: Progress = None,
     ) -> NDArray[np.bool_]:
         """Whether each ray hits anything: whether it is occluded. Faster than ``closest_hit``."""
-        rays, lenient = Rays.of(origins, directions, t_min, t_max), _is_lenient(invalid)
+        rays, lenient = Rays.of(origins, directions, t_min, t_max), is_lenient(invalid)
         with telling(progress, "ray") as told:
-            found = self._built().any_hit(
+            found = self._built(threads).any_hit(
                 rays.arrays,
                 lenient=lenient,
                 mask=mask_bits(mask),
@@ -109,7 +106,7 @@ class RayQueries:
         t_max: ArrayLike = np.inf,
         limit: Optional[int] = None,
         mask: int = ALL,
-        invalid: Invalid = "raise",
+        invalid: Literal["raise", "miss"] = "raise",
         threads: Optional[int] = None,
         progress: Progress = None,
     ) -> AllHits:
@@ -117,12 +114,12 @@ class RayQueries:
 
         ``limit`` is the most that are kept of each ray: its first.
         """
-        rays, lenient = Rays.of(origins, directions, t_min, t_max), _is_lenient(invalid)
+        rays, lenient = Rays.of(origins, directions, t_min, t_max), is_lenient(invalid)
         most = whole_or_none("limit", limit)
         if most is not None and most < 0:
             raise ArgumentError("limit: give a whole number that is not negative")
         with telling(progress, "ray") as told:
-            tree = self._built()
+            tree = self._built(threads)
             offsets, arrays = tree.all_hits(
                 rays.arrays,
                 is_double=rays.is_double,
@@ -142,7 +139,7 @@ class RayQueries:
         t_min: ArrayLike = 0.0,
         t_max: ArrayLike = np.inf,
         mask: int = ALL,
-        invalid: Invalid = "raise",
+        invalid: Literal["raise", "miss"] = "raise",
         threads: Optional[int] = None,
         progress: Progress = None,
     ) -> NDArray[np.int32]:
@@ -150,9 +147,9 @@ class RayQueries:
 
         On a closed mesh it is even for a ray from outside without end, and odd for one from inside.
         """
-        rays, lenient = Rays.of(origins, directions, t_min, t_max), _is_lenient(invalid)
+        rays, lenient = Rays.of(origins, directions, t_min, t_max), is_lenient(invalid)
         with telling(progress, "ray") as told:
-            counts = self._built().count(
+            counts = self._built(threads).count(
                 rays.arrays,
                 lenient=lenient,
                 mask=mask_bits(mask),
@@ -160,9 +157,3 @@ class RayQueries:
                 progress=told,
             )
         return counts.reshape(rays.shape)
-
-
-def _is_lenient(invalid: str) -> bool:
-    if invalid not in ("raise", "miss"):
-        raise ArgumentError(f'invalid: give "raise" or "miss", not {invalid!r}')
-    return invalid == "miss"

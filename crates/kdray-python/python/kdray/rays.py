@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .arrays import FloatArray, broadcast, common_shape, floats, vectors
+from .errors import ArgumentError
 
 RayArrays = tuple[FloatArray, FloatArray, FloatArray, FloatArray]
 """Origins, directions, and the bounds of t: what the compiled part takes."""
-
 
 @dataclass(frozen=True)
 class Rays:
@@ -48,3 +48,10 @@ class Rays:
         a, b, c, d = (broadcast(shape, array) for array in arguments.values())
         is_double = not first.dtype == second.dtype == np.float32
         return cls((a, b, c, d), shape, is_double)
+
+
+def is_lenient(invalid: str) -> bool:
+    """What becomes of rays and points that are not finite: whether they are nowhere, instead of an error."""
+    if invalid not in ("raise", "miss"):
+        raise ArgumentError(f'invalid: give "raise" or "miss", not {invalid!r}')
+    return invalid == "miss"

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from threading import Lock
 from typing import TYPE_CHECKING, Any, Optional
 
@@ -12,6 +14,7 @@ from ._kdray import Mesh, Tree
 from .arrays import FloatArray, face_indices, vectors
 from .errors import ArgumentError, ArgumentTypeError, SceneError, UnsupportedError
 from .meshes import triangles_of
+from .point_queries import PointQueries
 from .progress import Progress, telling
 from .ray_queries import RayQueries
 from .whole import ALL, mask_bits, whole, whole_or_none
@@ -20,7 +23,7 @@ if TYPE_CHECKING:
     from ._kdray import _Copy
 
 
-class Scene(RayQueries):
+class Scene(RayQueries, PointQueries):
     """Triangles with a tree over them, to be asked from any thread.
 
     >>> scene = Scene()
@@ -71,7 +74,9 @@ class Scene(RayQueries):
         if points.ndim != 2:
             raise ArgumentError(f"vertices: give an array of shape (n, 3), not {points.shape}")
         if self._dtype is not None:
-            points = points.astype(self._dtype, copy=False)
+            # What overflows is not finite, and refused.
+            with np.errstate(over="ignore"):
+                points = points.astype(self._dtype, copy=False)
         mesh = Mesh(np.ascontiguousarray(points), face_indices(faces))
         with self._changing():
             self._meshes.append(mesh)
@@ -94,12 +99,12 @@ class Scene(RayQueries):
             matrix = matrix[:3]
         if matrix.shape != (3, 4):
             raise ArgumentError(f"transform: give an array of shape (3, 4) or (4, 4), not {matrix.shape}")
-        geometry = whole("geometry_id", geometry_id)
-        if not 0 <= geometry < len(self._meshes):
-            text = f"geometry_id: there is no geometry {geometry}; there are {len(self._meshes)}"
-            raise ArgumentError(text)
+        geometry, bits = whole("geometry_id", geometry_id), mask_bits(mask)
         with self._changing():
-            self._copies.append((geometry, matrix.tolist(), mask_bits(mask)))
+            if not 0 <= geometry < len(self._meshes):
+                text = f"geometry_id: there is no geometry {geometry}; there are {len(self._meshes)}"
+                raise ArgumentError(text)
+            self._copies.append((geometry, matrix.tolist(), bits))
             return len(self._copies) - 1
 
     def build(
@@ -186,11 +191,11 @@ class Scene(RayQueries):
         state = "built" if self.is_built else "not built"
         return f"<kdray.Scene: {len(self)} triangles, {self.dtype}, {state}>"
 
-    def _built(self) -> Tree:
+    def _built(self, threads: Optional[int] = None) -> Tree:
         tree = self._tree
         if tree is None:
             with self._lock:
-                tree = self._tree or self._build(None, None, {}, None, None)
+                tree = self._tree or self._build(None, None, {}, threads, None)
         return tree
 
     def _build(
@@ -223,11 +228,13 @@ class Scene(RayQueries):
         self._meshes, self._copies = [], []
         return self._tree
 
-    def _changing(self) -> Lock:
-        """The lock that is held while something is added."""
-        if self._tree is not None:
-            raise SceneError("the scene is built, and cannot be changed any more; make a new one")
-        return self._lock
+    @contextmanager
+    def _changing(self) -> Iterator[None]:
+        """Holds the lock while something is added."""
+        with self._lock:
+            if self._tree is not None:
+                raise SceneError("the scene is built, and cannot be changed any more; make a new one")
+            yield
 
 
 def _precision(dtype: Optional[DTypeLike]) -> Optional[np.dtype[Any]]:

@@ -1,0 +1,162 @@
+//! Questions about points.
+
+use crate::error::{ArgumentError, UnsupportedError};
+use crate::job::{Control, each_part};
+use crate::rows::Rows;
+use crate::tree::{Kind, Tree};
+use kdray::{Scene, Side};
+use numpy::ndarray::ArrayView1;
+use pyo3::{PyErr, PyResult};
+use rayon::ThreadPoolBuilder;
+use std::ops::Range;
+
+/// As many points as are read and answered at a time.
+pub(crate) const BLOCK: usize = 256;
+
+/// Points of a caller.
+#[derive(Debug)]
+pub(crate) struct Points<'a> {
+    rows: Rows<'a, 3>,
+    /// What the caller calls them.
+    name: &'static str,
+    /// Whether points that are not finite are answered, as those that are nowhere, instead of refused.
+    lenient: bool,
+}
+
+impl<'a> Points<'a> {
+    pub(crate) fn new(rows: Rows<'a, 3>, name: &'static str, lenient: bool) -> Self {
+        Self { rows, name, lenient }
+    }
+
+    /// How many there are.
+    pub(crate) fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// Replaces `points` by those of `range`.
+    ///
+    /// # Errors
+    /// The first that is not finite.
+    pub(crate) fn read(&self, range: Range<usize>, points: &mut Vec<[f64; 3]>) -> PyResult<()> {
+        let first = range.start;
+        self.rows.read(range, points);
+        let is_bad = |point: &[f64; 3]| !point.iter().all(|x| x.is_finite());
+        match points.iter().position(is_bad).filter(|_| !self.lenient) {
+            Some(index) => Err(ArgumentError::new_err(format!(
+                "{}: that of index {} is not finite",
+                self.name,
+                first + index
+            ))),
+            None => Ok(()),
+        }
+    }
+}
+
+/// Calls for the scene of a tree, if it is one that answers questions about points.
+macro_rules! for_points {
+    ($tree:expr, $scene:ident => $answer:expr) => {
+        match &$tree.kind {
+            $crate::tree::Kind::F32($scene) => $answer,
+            $crate::tree::Kind::F64(_) | $crate::tree::Kind::Instanced(_) => {
+                Err($crate::points::unsupported($tree))
+            }
+        }
+    };
+}
+pub(crate) use for_points;
+
+/// That a scene does not answer questions about points.
+pub(crate) fn unsupported(tree: &Tree) -> PyErr {
+    let which = match &tree.kind {
+        Kind::Instanced(_) => "with instances; add the triangles of each copy instead",
+        _ => "of float64 vertices; make one with dtype=numpy.float32",
+    };
+    let text = format!("points, surfaces and tree files are not supported for scenes {which}");
+    UnsupportedError::new_err(text)
+}
+
+/// Finds out what all questions about inside and outside need, once for each scene.
+///
+/// On threads of its own, and the caller waits: a thread that sorts edges may take up other work meanwhile, and
+/// would wait for itself if that needed what it is about to find.
+pub(crate) fn prepare(tree: &Tree, scene: &Scene, threads: usize) {
+    tree.prepared.get_or_init(|| {
+        if let Ok(pool) = ThreadPoolBuilder::new().num_threads(threads).build() {
+            pool.install(|| scene.closure());
+        }
+    });
+}
+
+/// The answer for each point.
+pub(crate) fn each_point<A: Copy + Default + Send>(
+    points: &Points<'_>,
+    control: &Control,
+    answer: impl Fn([f64; 3]) -> A + Send + Sync,
+) -> PyResult<Vec<A>> {
+    let mut answers = vec![A::default(); points.len()];
+    let parts = answers.chunks_mut(BLOCK).enumerate().collect();
+    each_part(control, parts, Vec::new, |block, (index, answers): (usize, &mut [A])| {
+        let first = index * BLOCK;
+        points.read(first..first + answers.len(), block)?;
+        answers.iter_mut().zip(&*block).for_each(|(place, &point)| *place = answer(point));
+        control.add(answers.len());
+        Ok(())
+    })?;
+    Ok(answers)
+}
+
+/// Whether nothing is between each point and that of the same index.
+pub(crate) fn visible(
+    scene: &Scene,
+    from: &Points<'_>,
+    to: &Points<'_>,
+    control: &Control,
+) -> PyResult<Vec<bool>> {
+    let mut answers = vec![false; from.len()];
+    let parts = answers.chunks_mut(BLOCK).enumerate().collect();
+    let scratch = || (Vec::new(), Vec::new());
+    each_part(control, parts, scratch, |(ends, starts), (index, answers): (_, &mut [bool])| {
+        let range = index * BLOCK..index * BLOCK + answers.len();
+        from.read(range.clone(), starts)?;
+        to.read(range, ends)?;
+        let pairs = starts.iter().zip(&*ends);
+        answers.iter_mut().zip(pairs).for_each(|(place, (&a, &b))| *place = scene.visible(a, b));
+        control.add(answers.len());
+        Ok(())
+    })?;
+    Ok(answers)
+}
+
+/// Places on triangles: their ids among all, and the weights u and v.
+#[derive(Debug)]
+pub(crate) struct Surface<'a> {
+    pub(crate) ids: Vec<Option<u32>>,
+    pub(crate) weights: [ArrayView1<'a, f64>; 2],
+}
+
+/// How thick the material behind each place is; NaN where nothing is behind it, or there is no such triangle.
+pub(crate) fn thickness(
+    scene: &Scene,
+    at: &Surface<'_>,
+    side: Side,
+    control: &Control,
+) -> PyResult<Vec<f64>> {
+    let mut answers = vec![0.0; at.ids.len()];
+    let parts = answers.chunks_mut(BLOCK).enumerate().collect();
+    let one = |index: usize| {
+        let [u, v] = at.weights;
+        scene.thickness(at.ids[index]?, *u.get(index)?, *v.get(index)?, side)
+    };
+    each_part(
+        control,
+        parts,
+        || (),
+        |(), (index, answers): (usize, &mut [f64])| {
+            let places = answers.iter_mut().enumerate();
+            places.for_each(|(i, place)| *place = one(index * BLOCK + i).unwrap_or(f64::NAN));
+            control.add(answers.len());
+            Ok(())
+        },
+    )?;
+    Ok(answers)
+}
