@@ -50,19 +50,19 @@ pub(crate) fn all_hits<F: Real>(
     Ok((offsets, Columns::joined(columns.collect())))
 }
 
-/// How many there are of each ray.
+/// How many there are of each ray: fewer than 2^31.
 pub(crate) fn count(tree: &Tree, rays: &Rays<'_>, control: &Control) -> PyResult<Vec<i32>> {
-    let mut counts = vec![0; rays.len()];
-    let parts = counts.chunks_mut(BLOCK).enumerate().collect();
+    let mut answers = vec![0; rays.len()];
+    let parts = answers.chunks_mut(BLOCK).enumerate().collect();
     let scratch = || (RayBlock::default(), Vec::new());
-    each_part(control, parts, scratch, |(block, hits), (index, counts): (_, &mut [i32])| {
+    each_part(control, parts, scratch, |(block, counts), (index, answers): (_, &mut [i32])| {
         let first = index * BLOCK;
-        rays.read(first..first + counts.len(), block)?;
-        for (ray, count) in block.rays.iter().zip(&mut *counts) {
-            for_scene!(tree, scene => scene.all(ray, hits, |_| *count += 1));
-        }
-        control.add(counts.len());
+        rays.read(first..first + answers.len(), block)?;
+        counts.resize(answers.len(), 0);
+        for_scene!(tree, scene => Cast::counts(scene, &block.rays, counts));
+        answers.iter_mut().zip(counts).for_each(|(answer, count)| *answer = *count as i32);
+        control.add(answers.len());
         Ok(())
     })?;
-    Ok(counts)
+    Ok(answers)
 }

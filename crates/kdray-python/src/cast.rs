@@ -16,6 +16,9 @@ pub(crate) trait Cast: Sync {
     /// Whether each ray has any hit.
     fn any(&self, rays: &[Ray], found: &mut [bool]);
 
+    /// How many surfaces each ray crosses.
+    fn counts(&self, rays: &[Ray], counts: &mut [usize]);
+
     /// Gives `found` all hits of a ray in order. `hits` is room to work in.
     fn all(&self, ray: &Ray, hits: &mut Vec<Hit>, found: impl FnMut(Found));
 }
@@ -57,6 +60,10 @@ impl<T: Precision> Cast for Scene<T> {
         self.any_hits(rays, found);
     }
 
+    fn counts(&self, rays: &[Ray], counts: &mut [usize]) {
+        Self::counts(self, rays, counts);
+    }
+
     fn all(&self, ray: &Ray, hits: &mut Vec<Hit>, mut found: impl FnMut(Found)) {
         self.all_hits_into(ray, hits);
         hits.iter().for_each(|&hit| found(hit.into()));
@@ -76,6 +83,10 @@ impl Cast for InstancedScene {
 
     fn any(&self, rays: &[Ray], found: &mut [bool]) {
         rays.iter().zip(found).for_each(|(ray, found)| *found = self.any_hit(ray));
+    }
+
+    fn counts(&self, rays: &[Ray], counts: &mut [usize]) {
+        rays.iter().zip(counts).for_each(|(ray, count)| *count = self.count(ray));
     }
 
     fn all(&self, ray: &Ray, _: &mut Vec<Hit>, mut found: impl FnMut(Found)) {

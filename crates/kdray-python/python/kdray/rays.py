@@ -14,6 +14,7 @@ from .errors import ArgumentError
 RayArrays = tuple[FloatArray, FloatArray, FloatArray, FloatArray]
 """Origins, directions, and the bounds of t: what the compiled part takes."""
 
+
 @dataclass(frozen=True)
 class Rays:
     """Rays of one shape. Nothing is copied but what is no array of f32 or f64."""
