@@ -2,7 +2,7 @@
 
 use kdray::geometry::RayPacket;
 use kdray::primitives::HitArrays;
-use kdray::{BuildOptions, Hit, Preset, Ray, Scene, Strategy, TriangleMesh};
+use kdray::{BuildOptions, Hit, Precision, Preset, Ray, Scene, Strategy, TriangleMesh};
 use kdray_tests::{meshes, rays::Archer, shared};
 use std::fs;
 use tempfile::TempDir;
@@ -31,7 +31,7 @@ struct Answers {
 }
 
 impl Answers {
-    fn of(scene: &Scene, rays: &[Ray]) -> Self {
+    fn of<T: Precision>(scene: &Scene<T>, rays: &[Ray]) -> Self {
         let found: Vec<_> = rays.iter().map(|ray| scene.closest_hit_with_hint(ray)).collect();
         let hints: Vec<_> = found.iter().map(|it| it.map(|(_, hint)| hint)).collect();
         let near: Vec<_> = hints.iter().map(|hint| hint.unwrap_or_default()).collect();
@@ -57,9 +57,11 @@ impl Answers {
 }
 
 /// The same directions from one origin, beside the scene.
-fn in_packets(scene: &Scene, rays: &[Ray]) -> (Vec<Option<Bits>>, Vec<bool>) {
-    let origin = scene.tree().bounds().max.map(|x| f64::from(x) + 1.0);
-    let center = scene.tree().bounds().center();
+fn in_packets<T: Precision>(scene: &Scene<T>, rays: &[Ray]) -> (Vec<Option<Bits>>, Vec<bool>) {
+    let (bounds, space) = (scene.tree().bounds(), scene.mesh().tree_space());
+    let in_mesh = |p: [f64; 3]| [0, 1, 2].map(|k| p[k] / space.scale() + space.center()[k]);
+    let origin = in_mesh(bounds.max.map(|x| f64::from(x) + 1.0));
+    let center = in_mesh(bounds.center());
     let row = |axis: usize| -> Vec<f64> {
         let towards = center[axis] - origin[axis];
         rays.iter().map(|ray| towards + 0.2 * towards.abs() * ray.direction[axis]).collect()
@@ -73,13 +75,14 @@ fn in_packets(scene: &Scene, rays: &[Ray]) -> (Vec<Option<Bits>>, Vec<bool>) {
 }
 
 /// Saves a scene, and compares the answers of what comes back with its own.
-fn check(name: &str, mesh: TriangleMesh, options: &BuildOptions, rays: &[Ray]) {
+fn check<T: Precision>(name: &str, mesh: TriangleMesh<T>, options: &BuildOptions, rays: &[Ray]) {
     let built = Scene::build(mesh, options).unwrap_or_else(|error| panic!("{name}: {error}"));
     let folder = TempDir::new().expect("a temporary folder");
     let (path, again) = (folder.path().join("tree"), folder.path().join("again"));
     kdray_file::save(&built, &path).unwrap_or_else(|error| panic!("{name}: {error}"));
-    let loaded = kdray_file::load(&path, None).unwrap_or_else(|error| panic!("{name}: {error}"));
-    let mapped = kdray_file::map(&path).unwrap_or_else(|error| panic!("{name}: {error}"));
+    let loaded: Scene<T> =
+        kdray_file::load(&path, None).unwrap_or_else(|error| panic!("{name}: {error}"));
+    let mapped: Scene<T> = kdray_file::map(&path).unwrap_or_else(|error| panic!("{name}: {error}"));
     assert_eq!(mapped.verify(), Ok(()), "{name}");
     kdray_file::save(&mapped, &again).unwrap_or_else(|error| panic!("{name}: {error}"));
     let bytes = [&path, &again].map(|path| fs::read(path).expect("it was written"));
@@ -99,8 +102,24 @@ fn made_meshes_answer_alike() {
         check("soup", soup.clone(), &options, &rays);
     }
     check("soup", soup.clone(), &BuildOptions::for_strategy(Strategy::Median), &rays);
-    let nothing = TriangleMesh::default();
+    let nothing: TriangleMesh = TriangleMesh::default();
     check("nothing", nothing, &BuildOptions::default(), &rays);
+}
+
+#[test]
+fn made_meshes_in_f64_answer_alike() {
+    let place = [500_000.0, 5_400_000.0, 100.0];
+    let far = meshes::mesh(meshes::placed(&meshes::soup(1000, [0.0; 3], 1.0, 1), 0.1, place));
+    let rays = Archer::new(&far, 2).all_kinds(20, 10.0);
+    check("far", far.clone(), &BuildOptions::default(), &rays);
+    check("far", far, &BuildOptions::for_strategy(Strategy::Median), &rays);
+    let nothing: TriangleMesh<f64> = TriangleMesh::default();
+    check("nothing", nothing, &BuildOptions::default(), &rays);
+    for scale in [1e-300, 1e300] {
+        let mesh = meshes::mesh(meshes::placed(&meshes::degenerate(3), scale, [0.0; 3]));
+        let rays = Archer::new(&mesh, 4).all_kinds(4, 10.0);
+        check("of odd size", mesh, &BuildOptions::default(), &rays);
+    }
 }
 
 #[test]

@@ -30,6 +30,18 @@ pub fn mesh_in_f64(mesh: &TriangleMesh) -> TriangleMesh<f64> {
     TriangleMesh::new(vertices, mesh.triangles().to_vec()).expect("it was a mesh before")
 }
 
+/// The same mesh with every vertex moved.
+///
+/// # Panics
+/// If a coordinate is not finite.
+pub fn moved<T: Coordinate>(
+    mesh: &TriangleMesh,
+    vertex: impl Fn([f64; 3]) -> [T; 3],
+) -> TriangleMesh<T> {
+    let vertices = mesh.vertices().iter().map(|p| vertex(p.map(f64::from))).collect();
+    TriangleMesh::new(vertices, mesh.triangles().to_vec()).expect("test meshes are finite")
+}
+
 /// Triangles scaled and moved to another place, so that they need f64; of coordinates so short that
 /// differences between them are not rounded.
 pub fn placed(soup: &Soup, scale: f64, center: [f64; 3]) -> Soup<f64> {

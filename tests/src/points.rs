@@ -2,11 +2,16 @@
 
 use crate::rays::Archer;
 use kdray::primitives::{closest_on_triangle, solid_angle};
-use kdray::{ClosestPoint, TriangleMesh};
+use kdray::{ClosestPoint, Coordinate, TriangleMesh};
 
 /// Points of every kind, about `each` of a kind: at vertices, edges and faces of a mesh, one unit in
 /// the last place beside them, around the mesh, and up to `farthest` diagonals away.
-pub fn points(mesh: &TriangleMesh, each: usize, farthest: f64, seed: u64) -> Vec<[f64; 3]> {
+pub fn points<T: Coordinate>(
+    mesh: &TriangleMesh<T>,
+    each: usize,
+    farthest: f64,
+    seed: u64,
+) -> Vec<[f64; 3]> {
     let mut archer = Archer::new(mesh, seed);
     if archer.is_at_nothing() {
         return vec![[0.0; 3]];
@@ -41,18 +46,21 @@ pub fn beside(point: &[f64; 3]) -> [[f64; 3]; 6] {
 }
 
 /// The corners of a triangle in f64.
-pub fn corners(mesh: &TriangleMesh, id: u32) -> [[f64; 3]; 3] {
-    mesh.corners(id).map(|p| p.map(f64::from))
+pub fn corners<T: Coordinate>(mesh: &TriangleMesh<T>, id: u32) -> [[f64; 3]; 3] {
+    mesh.corners(id).map(|p| p.map(T::to_f64))
 }
 
 /// The nearest point, by testing every triangle.
-pub fn naive_closest_point(mesh: &TriangleMesh, point: [f64; 3]) -> Option<ClosestPoint> {
+pub fn naive_closest_point<T: Coordinate>(
+    mesh: &TriangleMesh<T>,
+    point: [f64; 3],
+) -> Option<ClosestPoint> {
     let ids = 0..mesh.triangles().len() as u32;
     let all = ids.map(|id| closest_on_triangle(point, corners(mesh, id), id));
     all.reduce(|best, other| if other.precedes(&best) { other } else { best })
 }
 
 /// The winding number, by summing every triangle.
-pub fn naive_winding_number(mesh: &TriangleMesh, point: [f64; 3]) -> f64 {
+pub fn naive_winding_number<T: Coordinate>(mesh: &TriangleMesh<T>, point: [f64; 3]) -> f64 {
     (0..mesh.triangles().len() as u32).map(|id| solid_angle(point, corners(mesh, id))).sum()
 }

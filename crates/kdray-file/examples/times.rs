@@ -41,7 +41,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let (time, content) = shortest(|| std::fs::read(path).map(black_box));
     content?;
     writeln!(out, "read    {time:10.2?}   (the bytes alone)")?;
-    let (time, loaded) = shortest(|| kdray_file::load(path, None));
+    let (time, loaded) = shortest(|| kdray_file::load::<f32>(path, None));
     loaded?;
     writeln!(out, "load    {time:10.2?}")?;
     let (time, verified) = shortest(|| mapped.verify());

@@ -1,9 +1,9 @@
 //! Reading and mapping.
 
 use crate::TreeFileError;
-use kdray::Scene;
-use kdray::file::{self, HEADER_BYTES};
-use kdray::memory::AlignedBytes;
+use kdray::file::{self, AnyScene, HEADER_BYTES};
+use kdray::memory::{AlignedBytes, SharedBytes};
+use kdray::{FileError, Precision, Scene};
 use kdray_map::Map;
 use std::fs::File;
 use std::io::{self, Read};
@@ -27,37 +27,33 @@ pub fn is_tree_file(path: &Path) -> io::Result<bool> {
 }
 
 /// Reads a file into memory and verifies all of it: what answers queries then is right, whoever made the
-/// file, and does not change with it.
+/// file, and does not change with it. Its coordinates must be of the scene's precision; [`load_any`] takes
+/// either.
 ///
 /// Takes about as long as a build, and twice the length of the file in memory; if that is more than
 /// `memory_limit`, if any, the file is refused before it is read.
 ///
 /// # Errors
 /// See [`TreeFileError`].
-pub fn load(path: &Path, memory_limit: Option<u64>) -> Result<Scene, TreeFileError> {
-    let io = |source| TreeFileError::io(path, source);
-    let file = open(path).map_err(io)?;
-    let header = read_header(&file).map_err(io)?;
-    let expected = file::file_bytes(&header).map_err(|source| TreeFileError::file(path, source))?;
-    let found = file.metadata().map_err(io)?.len();
-    if found != expected {
-        let source = kdray::FileError::Length { expected, found };
-        return Err(TreeFileError::file(path, source));
-    }
-    let needed = expected.saturating_mul(MEMORY);
-    if let Some(limit) = memory_limit.filter(|&limit| needed > limit) {
-        return Err(TreeFileError::Memory { path: path.to_owned(), needed, limit });
-    }
-    let room = usize::try_from(expected).ok().and_then(AlignedBytes::zeroed);
-    let mut bytes = room.ok_or_else(|| io(io::ErrorKind::OutOfMemory.into()))?;
-    let (start, rest) = bytes.as_mut_slice().split_at_mut(HEADER_BYTES);
-    start.copy_from_slice(&header);
-    (&file).read_exact(rest).map_err(io)?;
-    Scene::load(Arc::new(bytes)).map_err(|source| TreeFileError::file(path, source))
+pub fn load<T: Precision>(
+    path: &Path,
+    memory_limit: Option<u64>,
+) -> Result<Scene<T>, TreeFileError> {
+    let bytes = read(path, memory_limit, file::check_precision::<T>)?;
+    Scene::load(bytes).map_err(|source| TreeFileError::file(path, source))
+}
+
+/// [`load`] of a file of either precision.
+///
+/// # Errors
+/// See [`TreeFileError`].
+pub fn load_any(path: &Path, memory_limit: Option<u64>) -> Result<AnyScene, TreeFileError> {
+    let bytes = read(path, memory_limit, |_| Ok(()))?;
+    AnyScene::load(bytes).map_err(|source| TreeFileError::file(path, source))
 }
 
 /// Maps a file that you trust into memory: nothing is copied, and its memory is shared with all others who
-/// map it.
+/// map it. Its coordinates must be of the scene's precision; [`map_any`] takes either.
 ///
 /// What is checked is header and structure ([`kdray::file`]), so that no query panics or hangs.
 /// [`Scene::verify`] makes sure of the rest.
@@ -68,14 +64,54 @@ pub fn load(path: &Path, memory_limit: Option<u64>) -> Result<Scene, TreeFileErr
 ///
 /// # Errors
 /// See [`TreeFileError`].
-pub fn map(path: &Path) -> Result<Scene, TreeFileError> {
+pub fn map<T: Precision>(path: &Path) -> Result<Scene<T>, TreeFileError> {
+    Scene::open(mapped(path)?).map_err(|source| TreeFileError::file(path, source))
+}
+
+/// [`map`] of a file of either precision.
+///
+/// # Errors
+/// See [`TreeFileError`].
+pub fn map_any(path: &Path) -> Result<AnyScene, TreeFileError> {
+    AnyScene::open(mapped(path)?).map_err(|source| TreeFileError::file(path, source))
+}
+
+/// The bytes of a file whose header passes the check, in memory.
+fn read(
+    path: &Path,
+    memory_limit: Option<u64>,
+    check: impl Fn(&[u8]) -> Result<(), FileError>,
+) -> Result<SharedBytes, TreeFileError> {
+    let io = |source| TreeFileError::io(path, source);
+    let refused = |source| TreeFileError::file(path, source);
+    let file = open(path).map_err(io)?;
+    let header = read_header(&file).map_err(io)?;
+    let expected = file::file_bytes(&header).map_err(refused)?;
+    check(&header).map_err(refused)?;
+    let found = file.metadata().map_err(io)?.len();
+    if found != expected {
+        return Err(refused(FileError::Length { expected, found }));
+    }
+    let needed = expected.saturating_mul(MEMORY);
+    if let Some(limit) = memory_limit.filter(|&limit| needed > limit) {
+        return Err(TreeFileError::Memory { path: path.to_owned(), needed, limit });
+    }
+    let room = usize::try_from(expected).ok().and_then(AlignedBytes::zeroed);
+    let mut bytes = room.ok_or_else(|| io(io::ErrorKind::OutOfMemory.into()))?;
+    let (start, rest) = bytes.as_mut_slice().split_at_mut(HEADER_BYTES);
+    start.copy_from_slice(&header);
+    (&file).read_exact(rest).map_err(io)?;
+    Ok(Arc::new(bytes))
+}
+
+/// The bytes of a file that begins with a header, mapped.
+fn mapped(path: &Path) -> Result<SharedBytes, TreeFileError> {
     let io = |source| TreeFileError::io(path, source);
     let file = open(path).map_err(io)?;
     // Beforehand, for what is empty or short cannot be mapped everywhere.
     let header = read_header(&file).map_err(io)?;
     file::file_bytes(&header).map_err(|source| TreeFileError::file(path, source))?;
-    let map = Map::new(&file).map_err(io)?;
-    Scene::open(Arc::new(map)).map_err(|source| TreeFileError::file(path, source))
+    Ok(Arc::new(Map::new(&file).map_err(io)?))
 }
 
 /// Opens what must be a file, not a pipe or a folder.

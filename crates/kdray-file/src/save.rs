@@ -1,7 +1,7 @@
 //! Writing.
 
 use crate::TreeFileError;
-use kdray::Scene;
+use kdray::{Precision, Scene};
 use std::io::Write;
 use std::path::Path;
 
@@ -11,7 +11,7 @@ use std::path::Path;
 ///
 /// # Errors
 /// [`TreeFileError::Io`].
-pub fn save(scene: &Scene, path: &Path) -> Result<(), TreeFileError> {
+pub fn save<T: Precision>(scene: &Scene<T>, path: &Path) -> Result<(), TreeFileError> {
     let error = |source| TreeFileError::io(path, source);
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,

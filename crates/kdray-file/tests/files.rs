@@ -1,7 +1,8 @@
 //! Tree files on the disk.
 
+use kdray::file::AnyScene;
 use kdray::{BuildOptions, FileError, Ray, Scene, TriangleMesh};
-use kdray_file::{TreeFileError, is_tree_file, load, map, save};
+use kdray_file::{TreeFileError, is_tree_file, load, load_any, map, map_any, save};
 use std::{fs, path::Path};
 use tempfile::TempDir;
 
@@ -43,7 +44,7 @@ fn both_ways_give_the_same_hits() -> Done {
     let (folder, built) = saved(40);
     let path = folder.path().join("tree");
     assert!(is_tree_file(&path)?);
-    let (loaded, mapped) = (load(&path, None)?, map(&path)?);
+    let (loaded, mapped): (Scene, Scene) = (load(&path, None)?, map(&path)?);
     assert_eq!(mapped.verify(), Ok(()));
     let mut hits = 0;
     for i in 0..400 {
@@ -61,11 +62,11 @@ fn both_ways_give_the_same_hits() -> Done {
 fn a_new_file_in_its_place_leaves_the_mapped_one() -> Done {
     let (folder, built) = saved(20);
     let path = folder.path().join("tree");
-    let mapped = map(&path)?;
+    let mapped: Scene = map(&path)?;
     save(&scene(3), &path)?;
     assert_eq!(mapped.verify(), Ok(()));
     assert_eq!(mapped.mesh(), built.mesh());
-    assert_eq!(load(&path, None)?.mesh().triangles().len(), 18);
+    assert_eq!(load::<f32>(&path, None)?.mesh().triangles().len(), 18);
     assert_eq!(fs::read_dir(folder.path())?.count(), 1, "no temporary file is left");
     Ok(())
 }
@@ -88,8 +89,8 @@ fn what_is_no_tree_file_is_refused() -> Done {
     }
     let missing = folder.path().join("missing");
     for path in [missing.as_path(), folder.path()] {
-        assert!(matches!(load(path, None), Err(TreeFileError::Io { .. })));
-        assert!(matches!(map(path), Err(TreeFileError::Io { .. })));
+        assert!(matches!(load::<f32>(path, None), Err(TreeFileError::Io { .. })));
+        assert!(matches!(map::<f32>(path), Err(TreeFileError::Io { .. })));
     }
     for path in [folder.path(), &missing.join("tree")] {
         assert!(matches!(save(&scene(2), path), Err(TreeFileError::Io { .. })));
@@ -105,9 +106,31 @@ fn damage_is_found_by_loading_and_by_verifying() -> Done {
     // In a coordinate: the mesh is another, but a valid one.
     bytes[256] ^= 1;
     fs::write(&path, &bytes)?;
-    let loaded = load(&path, None);
+    let loaded = load::<f32>(&path, None);
     assert!(matches!(loaded, Err(TreeFileError::File { source: FileError::Damaged, .. })));
-    assert_eq!(map(&path)?.verify(), Err(FileError::Damaged));
+    assert_eq!(map::<f32>(&path)?.verify(), Err(FileError::Damaged));
+    Ok(())
+}
+
+#[test]
+fn either_precision_is_read_by_those_who_do_not_know() -> Done {
+    let (folder, built) = saved(3);
+    let (path, other) = (folder.path().join("tree"), folder.path().join("other"));
+    let vertices = built.mesh().vertices().iter().map(|p| p.map(f64::from)).collect();
+    let mesh = TriangleMesh::new(vertices, built.mesh().triangles().to_vec())?;
+    let in_f64 = Scene::build(mesh, &BuildOptions::default())?;
+    save(&in_f64, &other)?;
+    assert_eq!(refused(&other), FileError::Precision { found: 64, expected: 32 });
+    for any in [load_any(&other, None)?, map_any(&other)?] {
+        let AnyScene::F64(scene) = any else { panic!("it is f64") };
+        assert_eq!(scene.mesh(), in_f64.mesh());
+    }
+    for any in [load_any(&path, None)?, map_any(&path)?] {
+        let AnyScene::F32(scene) = any else { panic!("it is f32") };
+        assert_eq!(scene.mesh(), built.mesh());
+    }
+    let scene: Scene<f64> = load(&other, None)?;
+    assert_eq!(scene.verify(), Ok(()));
     Ok(())
 }
 
@@ -116,8 +139,8 @@ fn a_file_that_takes_too_much_memory_is_refused() {
     let (folder, _) = saved(3);
     let path = folder.path().join("tree");
     let length = fs::metadata(&path).expect("it is there").len();
-    assert!(load(&path, Some(2 * length)).is_ok());
-    let refused = load(&path, Some(2 * length - 1));
+    assert!(load::<f32>(&path, Some(2 * length)).is_ok());
+    let refused = load::<f32>(&path, Some(2 * length - 1));
     let expected = (2 * length, 2 * length - 1);
     assert!(
         matches!(refused, Err(TreeFileError::Memory { needed, limit, .. }) if (needed, limit) == expected)

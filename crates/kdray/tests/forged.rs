@@ -6,11 +6,11 @@ use kdray::geometry::RayPacket;
 use kdray::layout::WideError;
 use kdray::primitives::HitArrays;
 use kdray::tree::TreeError;
-use kdray::{Arithmetic, FileError, Hit, MeshError, Ray, Scene};
+use kdray::{Arithmetic, FileError, Hit, MeshError, Precision, Ray, Scene};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use saved_common::Section::{Above, Homes, Lines, Nodes, References, Triangles, Vertices};
-use saved_common::{Forgery, Section};
+use saved_common::{Forgery, Section, soup_in_f64};
 
 /// Words of a wide node: those of its planes, links and orders.
 const PLANES: usize = 0;
@@ -25,21 +25,25 @@ fn rays(count: usize, seed: u64) -> Vec<Ray> {
 
 /// The error of opening a file. To load it is an error, too.
 fn refused(forgery: &Forgery) -> FileError {
-    assert!(Scene::load(forgery.sealed()).is_err());
-    Scene::open(forgery.sealed()).expect_err("it is refused")
+    assert!(Scene::<f32>::load(forgery.sealed()).is_err());
+    Scene::<f32>::open(forgery.sealed()).expect_err("it is refused")
 }
 
 /// The error of verifying a file that can be opened.
 fn found(forgery: &Forgery) -> FileError {
-    let opened = Scene::open(forgery.sealed()).unwrap_or_else(|error| panic!("{error}"));
+    found_in::<f32>(forgery)
+}
+
+fn found_in<T: Precision>(forgery: &Forgery) -> FileError {
+    let opened = Scene::<T>::open(forgery.sealed()).unwrap_or_else(|error| panic!("{error}"));
     ask_everything(&opened, &rays(50, 1));
     let error = opened.verify().expect_err("it is wrong");
-    assert_eq!(Scene::load(forgery.sealed()).err(), Some(error));
+    assert_eq!(Scene::<T>::load(forgery.sealed()).err(), Some(error));
     error
 }
 
 /// Asks a scene all that can be asked. The closest hits.
-fn ask_everything(scene: &Scene, rays: &[Ray]) -> Vec<Option<Hit>> {
+fn ask_everything<T: Precision>(scene: &Scene<T>, rays: &[Ray]) -> Vec<Option<Hit>> {
     let float = scene.clone().with_arithmetic(Arithmetic::Float);
     let (mut hits, mut found) = (vec![None; rays.len()], vec![false; rays.len()]);
     let mut hints = Vec::new();
@@ -70,7 +74,7 @@ fn ask_everything(scene: &Scene, rays: &[Ray]) -> Vec<Option<Hit>> {
 }
 
 /// Asks about the points where a ray begins and where it is at t = 1.
-fn ask_about_points(scene: &Scene, ray: &Ray) {
+fn ask_about_points<T: Precision>(scene: &Scene<T>, ray: &Ray) {
     let end = [0, 1, 2].map(|k| ray.origin[k] + ray.direction[k]);
     for point in [ray.origin, end] {
         let _ = (scene.contains(point), scene.signed_distance(point), scene.winding_number(point));
@@ -83,7 +87,7 @@ fn ask_about_points(scene: &Scene, ray: &Ray) {
 }
 
 /// Asks for rays that go together.
-fn ask_in_packets(scene: &Scene) {
+fn ask_in_packets<T: Precision>(scene: &Scene<T>) {
     let origin = [0.5, 0.5, -2.0];
     let row = |f: fn(i32) -> i32| (0..256).map(|i| 0.04 * f64::from(f(i)) - 0.3).collect();
     let (x, y, z): (Vec<_>, Vec<_>, _) = (row(|i| i % 16), row(|i| i / 16), [1.0; 256]);
@@ -121,7 +125,8 @@ fn headers_that_contradict_themselves_are_named() {
         refused(&forgery)
     };
     assert_eq!(with(8, 2), FileError::Version(2));
-    assert_eq!(with(12, 64), FileError::Precision(64));
+    assert_eq!(with(12, 64), FileError::Precision { found: 64, expected: 32 });
+    assert!(matches!(with(12, 16), FileError::BadHeader(_)), "the bits of a coordinate");
     assert!(matches!(with(104, 2), FileError::BadHeader(_)), "whether there is a wide tree");
     assert!(matches!(with(104, 0), FileError::BadHeader(_)), "there is one");
     assert!(matches!(with(200, 1), FileError::BadHeader(_)), "a word that means nothing");
@@ -239,7 +244,7 @@ fn nodes_that_kernels_would_trip_over_are_refused() {
 #[test]
 fn whatever_would_change_a_hit_is_found() {
     let honest = Forgery::of(300);
-    assert_eq!(Scene::load(honest.sealed()).err(), None);
+    assert_eq!(Scene::<f32>::load(honest.sealed()).err(), None);
     let wide = |forgery: Forgery| match found(&forgery) {
         FileError::Wide(error) => error,
         error => panic!("{error}"),
@@ -265,11 +270,47 @@ fn whatever_would_change_a_hit_is_found() {
     assert!(matches!(moved, FileError::Tree(_)), "{moved}");
 }
 
+/// The same for vertices in f64, of which blocks hold rounded copies.
+#[test]
+fn whatever_would_change_a_hit_in_f64_is_found() {
+    let honest = Forgery::of_mesh(soup_in_f64(300, |x| x / 3.0));
+    assert_eq!(Scene::<f64>::load(honest.sealed()).err(), None);
+    for (word, x) in [(PLANES, 3.0), (PLANES + 8, -3.0), (PLANES, f32::NAN)] {
+        let error = found_in::<f64>(&honest.clone().with_float(Lines, word, x));
+        assert!(matches!(error, FileError::Wide(WideError::BoxTooSmall { .. })), "{error}");
+    }
+    // The last block ends the arena. Its first lane is one with a triangle.
+    let last = honest.words(Lines) - 80;
+    let x = f32::from_bits(honest.word(Lines, last));
+    let error = found_in::<f64>(&honest.clone().with_float(Lines, last, x.next_up()));
+    assert!(matches!(error, FileError::Wide(WideError::NotTheLeafs { .. })), "{error}");
+    let home = found_in::<f64>(&honest.clone().with_float(Homes, 8, -5.0));
+    assert!(matches!(home, FileError::Wide(WideError::BadHome { .. })), "{home}");
+    // The mesh is larger, and with it the tree's coordinates are others.
+    let far =
+        found_in::<f64>(&honest.clone().with_word(Vertices, 1, (100.0_f64.to_bits() >> 32) as u32));
+    assert!(matches!(far, FileError::Wide(_) | FileError::Tree(_)), "{far}");
+    let bad = honest.clone().with_word(Vertices, 1, (f64::INFINITY.to_bits() >> 32) as u32);
+    let error = Scene::<f64>::open(bad.sealed()).err();
+    assert!(matches!(error, Some(FileError::Mesh(MeshError::NonFiniteVertex { .. }))), "{error:?}");
+}
+
 /// Each box of the file, each coordinate, link and id is made another, one by one.
 #[test]
 fn no_word_can_be_changed_without_being_found_or_changing_nothing() {
-    let honest = Forgery::of(25);
     let rays = rays(20, 2);
+    change_every_word::<f32>(&Forgery::of(25), &rays);
+    // Rays that hit the same triangles a third as large.
+    let scaled = rays.iter().map(|ray| Ray {
+        origin: ray.origin.map(|x| x / 3.0),
+        direction: ray.direction.map(|x| x / 3.0),
+        interval: ray.interval,
+    });
+    let in_f64 = Forgery::of_mesh(soup_in_f64(9, |x| x / 3.0));
+    change_every_word::<f64>(&in_f64, &scaled.collect::<Vec<_>>());
+}
+
+fn change_every_word<T: Precision>(honest: &Forgery, rays: &[Ray]) {
     let mut found = 0;
     for section in Section::ALL {
         for index in 0..honest.words(section) {
@@ -277,7 +318,7 @@ fn no_word_can_be_changed_without_being_found_or_changing_nothing() {
             let others = [word ^ 1, word.wrapping_add(7), word ^ 1 << 31, 0, u32::MAX];
             for other in others.into_iter().filter(|&other| other != word) {
                 let forgery = honest.clone().with_word(section, index, other);
-                found += usize::from(!is_right_or_refused(&forgery, &rays));
+                found += usize::from(!is_right_or_refused::<T>(&forgery, rays));
             }
         }
     }
@@ -287,11 +328,15 @@ fn no_word_can_be_changed_without_being_found_or_changing_nothing() {
 /// Several words at a time, some of which are made of others.
 #[test]
 fn no_forgery_panics_hangs_or_passes() {
-    let honest = Forgery::of(120);
+    forge::<f32>(&Forgery::of(120), 5000);
+    forge::<f64>(&Forgery::of_mesh(soup_in_f64(60, |x| x)), 1500);
+}
+
+fn forge<T: Precision>(honest: &Forgery, times: usize) {
     let mut random = Pcg64::seed_from_u64(3);
     let rays = rays(12, 4);
     let mut opened = 0;
-    for _ in 0..6000 {
+    for _ in 0..times {
         let mut forgery = honest.clone();
         // In vertices and lines mostly: elsewhere nearly all is refused at once.
         let section =
@@ -307,17 +352,17 @@ fn no_forgery_panics_hangs_or_passes() {
             };
             forgery = forgery.with_word(section, index, word);
         }
-        opened += usize::from(Scene::open(forgery.sealed()).is_ok());
-        is_right_or_refused(&forgery, &rays);
+        opened += usize::from(Scene::<T>::open(forgery.sealed()).is_ok());
+        is_right_or_refused::<T>(&forgery, &rays);
     }
-    assert!(opened > 200, "{opened} were opened");
+    assert!(opened > times / 30, "{opened} were opened");
 }
 
 /// Whether a forgery passes the verification, in which case its hits are right. If it can be opened, it
 /// is asked everything in any case.
-fn is_right_or_refused(forgery: &Forgery, rays: &[Ray]) -> bool {
-    let Ok(opened) = Scene::open(forgery.sealed()) else {
-        assert!(Scene::load(forgery.sealed()).is_err());
+fn is_right_or_refused<T: Precision>(forgery: &Forgery, rays: &[Ray]) -> bool {
+    let Ok(opened) = Scene::<T>::open(forgery.sealed()) else {
+        assert!(Scene::<T>::load(forgery.sealed()).is_err());
         return false;
     };
     let hits = ask_everything(&opened, rays);

@@ -3,15 +3,18 @@
 use super::exact_triangle_hit;
 use super::integers::{Vector, integers, ratio, rational};
 use kdray::primitives::HitRule::Crossing;
-use kdray::{Ray, TriangleMesh};
+use kdray::{Coordinate, Ray, TriangleMesh};
 use num_bigint::{BigInt, Sign};
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 
 /// The square of the distance from a point to a closed triangle, which may have no area, in units
 /// of the square of the returned power of two.
-pub fn exact_distance_squared(point: [f64; 3], corners: &[[f32; 3]; 3]) -> BigRational {
-    let [a, b, c] = corners.map(|p| p.map(f64::from));
+pub fn exact_distance_squared<T: Coordinate>(
+    point: [f64; 3],
+    corners: &[[T; 3]; 3],
+) -> BigRational {
+    let [a, b, c] = corners.map(|p| p.map(T::to_f64));
     // The unit goes along, so that the integers have a known size.
     let [a, b, c, p, unit] = integers([a, b, c, point, [1.0, 0.0, 0.0]]);
     let unit = unit.0[0].clone();
@@ -52,7 +55,7 @@ fn to_segment(p: &Vector<3>, a: &Vector<3>, b: &Vector<3>) -> BigRational {
 
 /// Whether a point is inside a closed mesh, or on its surface: by an odd number of crossings, or by
 /// a distance of zero.
-pub fn exactly_contains(mesh: &TriangleMesh, point: [f64; 3]) -> bool {
+pub fn exactly_contains<T: Coordinate>(mesh: &TriangleMesh<T>, point: [f64; 3]) -> bool {
     let ids = 0..mesh.triangles().len() as u32;
     let ray = Ray::new(point, [0.25, 0.5, 1.0]);
     let is_crossed = |&id: &u32| {
@@ -74,7 +77,11 @@ pub fn is_distance(found: f64, error: f64, squared: &BigRational) -> bool {
 ///
 /// # Panics
 /// If it is not.
-pub fn is_exactly_visible(mesh: &TriangleMesh, from: [f64; 3], to: [f64; 3]) -> bool {
+pub fn is_exactly_visible<T: Coordinate>(
+    mesh: &TriangleMesh<T>,
+    from: [f64; 3],
+    to: [f64; 3],
+) -> bool {
     let ray = Ray::through(from, to);
     for k in 0..3 {
         let sum = rational(from[k]) + rational(ray.direction[k]);

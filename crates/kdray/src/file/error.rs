@@ -15,9 +15,16 @@ pub enum FileError {
     /// The format is of another version.
     #[error("the tree file is of version {0}, but version 1 is what can be read; save it anew")]
     Version(u32),
-    /// The coordinates are not 32-bit floats.
-    #[error("the tree file has coordinates of {0} bits, but 32 is what can be read; save it anew")]
-    Precision(u32),
+    /// The coordinates are not of the scene's precision.
+    #[error(
+        "the tree file has coordinates of {found} bits, where {expected} are expected; open it as a Scene<f{found}>, or save one of f{expected}"
+    )]
+    Precision {
+        /// The bits of those in the file.
+        found: u32,
+        /// Those of the scene that was asked for.
+        expected: u32,
+    },
     /// The header is not what was written.
     #[error("the header of the tree file is damaged; save it anew")]
     DamagedHeader,

@@ -2,7 +2,7 @@
 
 use super::sections::{COUNT, Sections};
 use super::{FileError, checksum};
-use crate::geometry::Aabb;
+use crate::geometry::{Aabb, Coordinate};
 
 /// How long the header is.
 pub const HEADER_BYTES: usize = 256;
@@ -11,9 +11,6 @@ pub const HEADER_BYTES: usize = 256;
 const MAGIC: [u8; 8] = *b"\x89KDRAY\r\n";
 
 const VERSION: u32 = 1;
-
-/// The bits of a coordinate.
-const PRECISION: u32 = 32;
 
 /// Where the header's own checksum stands.
 const CHECKSUM: usize = HEADER_BYTES - 8;
@@ -32,9 +29,33 @@ pub fn file_bytes(header: &[u8]) -> Result<u64, FileError> {
     Header::read_start(header).map(|(_, sections)| sections.file_bytes())
 }
 
+/// How many bits the coordinates in a tree file have, by its header, the first [`HEADER_BYTES`] of it: 32,
+/// for a `Scene<f32>`, or 64, for a `Scene<f64>`.
+///
+/// # Errors
+/// See [`FileError`]: those of a header.
+pub fn coordinate_bits(header: &[u8]) -> Result<u32, FileError> {
+    Header::read_start(header).map(|(header, _)| header.coordinate_bits)
+}
+
+/// Whether the coordinates in a tree file are T, by its header, the first [`HEADER_BYTES`] of it.
+///
+/// # Errors
+/// [`FileError::Precision`] if they are not; those of a header.
+pub fn check_precision<T: Coordinate>(header: &[u8]) -> Result<(), FileError> {
+    Header::read_start(header)?.0.check_precision::<T>()
+}
+
+/// The bits of a coordinate.
+pub(super) fn bits_of<T: Coordinate>() -> u32 {
+    8 * size_of::<T>() as u32
+}
+
 /// What the header says besides what it is: its numbers in the order in which they stand there.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Header {
+    /// How many a vertex's coordinates have: 32 or 64.
+    pub(super) coordinate_bits: u32,
     /// That of all bytes behind the header.
     pub(super) body_checksum: u64,
     /// How long each array is.
@@ -56,7 +77,7 @@ impl Header {
         };
         put(&MAGIC);
         put(&VERSION.to_le_bytes());
-        put(&PRECISION.to_le_bytes());
+        put(&self.coordinate_bits.to_le_bytes());
         put(&self.body_checksum.to_le_bytes());
         self.counts.iter().for_each(|count| put(&count.to_le_bytes()));
         let corners = self.bounds.min.iter().chain(&self.bounds.max);
@@ -67,10 +88,11 @@ impl Header {
         bytes
     }
 
-    /// Reads the header of a file, all of whose bytes are given, and checks that it is one, and that
-    /// the arrays fill the file.
-    pub(super) fn read(file: &[u8]) -> Result<(Self, Sections), FileError> {
+    /// Reads the header of a file, all of whose bytes are given, and checks that it is one of that
+    /// precision, and that the arrays fill the file.
+    pub(super) fn read<T: Coordinate>(file: &[u8]) -> Result<(Self, Sections), FileError> {
         let (header, sections) = Self::read_start(file)?;
+        header.check_precision::<T>()?;
         let (expected, found) = (sections.file_bytes(), file.len() as u64);
         if found == expected {
             Ok((header, sections))
@@ -89,26 +111,32 @@ impl Header {
             return Err(FileError::Length { expected: HEADER_BYTES as u64, found });
         };
         let mut fields = Fields(&bytes[MAGIC.len()..]);
-        let (version, precision) = (fields.u32(), fields.u32());
+        let version = fields.u32();
         if version != VERSION {
             return Err(FileError::Version(version));
         }
         if checksum(&bytes[..CHECKSUM]).to_le_bytes() != bytes[CHECKSUM..] {
             return Err(FileError::DamagedHeader);
         }
-        if precision != PRECISION {
-            return Err(FileError::Precision(precision));
-        }
         let header = Self::of_fields(&mut fields)?;
         if header.to_bytes() != *bytes {
             return Err(FileError::BadHeader("what means nothing is not zero"));
         }
         let too_long = FileError::BadHeader("no file could be as long");
-        let sections = Sections::new(&header.counts).ok_or(too_long)?;
+        let sections = Sections::new(header.coordinate_bits, &header.counts).ok_or(too_long)?;
         Ok((header, sections))
     }
 
+    fn check_precision<T: Coordinate>(&self) -> Result<(), FileError> {
+        let (found, expected) = (self.coordinate_bits, bits_of::<T>());
+        if found == expected { Ok(()) } else { Err(FileError::Precision { found, expected }) }
+    }
+
     fn of_fields(fields: &mut Fields<'_>) -> Result<Self, FileError> {
+        let coordinate_bits = fields.u32();
+        if ![bits_of::<f32>(), bits_of::<f64>()].contains(&coordinate_bits) {
+            return Err(FileError::BadHeader("coordinates have 32 or 64 bits"));
+        }
         let body_checksum = fields.u64();
         let counts = [(); COUNT].map(|()| fields.u64());
         let corner = |fields: &mut Fields<'_>| [(); 3].map(|()| f32::from_bits(fields.u32()));
@@ -118,7 +146,7 @@ impl Header {
             1 => true,
             _ => return Err(FileError::BadHeader("there is or is not a wide tree")),
         };
-        Ok(Self { body_checksum, counts, bounds, has_wide })
+        Ok(Self { coordinate_bits, body_checksum, counts, bounds, has_wide })
     }
 }
 

@@ -6,7 +6,7 @@
 //!
 //! | array | an item | bytes |
 //! |---|---|---:|
-//! | vertices | three coordinates | 12 |
+//! | vertices | three coordinates, f32 or f64 as the header says | 12 or 24 |
 //! | triangles | three indices of vertices | 12 |
 //! | nodes of the canonical tree | split or first reference; axis or leaf, upper child or count | 8 |
 //! | references | the id of a triangle | 4 |
@@ -21,7 +21,7 @@
 //! # What is checked when
 //! | | [`open`](crate::Scene::open) | [`load`](crate::Scene::load), [`verify`](crate::Scene::verify) |
 //! |---|---|---|
-//! | header: magic, version, its checksum, sizes that fit the file | yes | yes |
+//! | header: magic, version, its checksum, the scene's precision, sizes that fit the file | yes | yes |
 //! | structure: whatever an index, a link or a loop relies on | yes | yes |
 //! | vertices are finite | yes | yes |
 //! | the checksum of all bytes (XXH3, 64 bits) | no | yes |
@@ -38,14 +38,16 @@
 //!
 //! Nothing is allocated by what a file says of itself before that is found to be so.
 
+mod any_scene;
 mod error;
 mod header;
 mod read;
 mod sections;
 mod write;
 
+pub use any_scene::AnyScene;
 pub use error::FileError;
-pub use header::{HEADER_BYTES, file_bytes, is_tree_file};
+pub use header::{HEADER_BYTES, check_precision, coordinate_bits, file_bytes, is_tree_file};
 
 use twox_hash::XxHash3_64;
 

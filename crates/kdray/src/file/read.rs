@@ -6,17 +6,18 @@ use super::{FileError, checksum};
 use crate::layout::{WideParts, WideTree};
 use crate::memory::{SharedBytes, Store};
 use crate::primitives::TriangleMesh;
-use crate::query::Scene;
+use crate::query::{Precision, Scene};
 use crate::tree::KdTree;
 
-impl Scene {
-    /// The scene of a saved file, all of which is verified, as [`crate::file`] says.
+impl<T: Precision> Scene<T> {
+    /// The scene of a saved file, all of which is verified, as [`crate::file`] says. Its coordinates must be
+    /// of this precision; [`AnyScene`](super::AnyScene) takes either.
     ///
     /// # Errors
     /// See [`FileError`].
     pub fn load(bytes: SharedBytes) -> Result<Self, FileError> {
         // First, because damage is likelier than deceit, and says what to do.
-        let (header, sections) = Header::read((*bytes).as_ref())?;
+        let (header, sections) = Header::read::<T>((*bytes).as_ref())?;
         verify_bytes((*bytes).as_ref(), &header, &sections)?;
         let scene = Self::open(bytes)?;
         scene.verify_trees()?;
@@ -33,7 +34,7 @@ impl Scene {
     /// # Errors
     /// See [`FileError`].
     pub fn open(bytes: SharedBytes) -> Result<Self, FileError> {
-        let (header, sections) = Header::read((*bytes).as_ref())?;
+        let (header, sections) = Header::read::<T>((*bytes).as_ref())?;
         let [vertices, triangles, nodes, references, lines, homes, above] =
             sections.ranges.map(|range| range.start as usize..range.end as usize);
         let mesh = TriangleMesh::of_stores(
@@ -53,7 +54,7 @@ impl Scene {
             above: Store::in_bytes(&bytes, above),
         };
         let wide = if header.has_wide {
-            Some(WideTree::of_parts(parts, tree.bounds(), triangles)?)
+            Some(WideTree::of_parts(parts, &tree, &mesh)?)
         } else if parts.is_empty() {
             None
         } else {
@@ -70,18 +71,15 @@ impl Scene {
     /// See [`FileError`].
     pub fn verify(&self) -> Result<(), FileError> {
         if let Some(bytes) = self.source() {
-            let (header, sections) = Header::read(bytes)?;
+            let (header, sections) = Header::read::<T>(bytes)?;
             verify_bytes(bytes, &header, &sections)?;
         }
         self.verify_trees()
     }
 
     fn verify_trees(&self) -> Result<(), FileError> {
-        self.tree().validate(self.mesh())?;
-        if let Some(wide) = self.wide_tree() {
-            wide.verify(self.tree(), self.mesh())?;
-        }
-        Ok(())
+        T::verify_tree(self)?;
+        Ok(T::verify_wide_tree(self)?)
     }
 }
 

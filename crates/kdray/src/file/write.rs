@@ -1,18 +1,17 @@
 //! From a scene to bytes.
 
-use super::header::Header;
+use super::header::{Header, bits_of};
 use super::sections::{COUNT, Sections};
 use crate::layout::{WideParts, WideTree};
-use crate::query::Scene;
+use crate::query::{Precision, Scene};
 use std::convert::Infallible;
 use std::hash::Hasher;
 use twox_hash::xxhash3_64::Hasher as Xxh3;
 
-impl Scene {
+impl<T: Precision> Scene<T> {
     /// How many bytes the scene takes when it is saved.
     pub fn saved_bytes(&self) -> u64 {
-        let sections = Sections::new(&self.section_counts());
-        sections.expect("what is in memory fits a file").file_bytes()
+        self.sections().file_bytes()
     }
 
     /// Gives `write` the scene's mesh and trees as the bytes of a tree file, in pieces, and stops at its
@@ -30,7 +29,7 @@ impl Scene {
     ///     Ok::<(), std::convert::Infallible>(())
     /// });
     /// assert!(kept.is_ok());
-    /// let loaded = Scene::load(Arc::new(AlignedBytes::from(&file[..])))?;
+    /// let loaded = Scene::<f32>::load(Arc::new(AlignedBytes::from(&file[..])))?;
     /// let ray = Ray::new([0.25, 0.25, 0.0], [0.0, 0.0, 1.0]);
     /// assert_eq!(loaded.closest_hit(&ray), scene.closest_hit(&ray));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -40,6 +39,7 @@ impl Scene {
     /// That of `write`.
     pub fn save<E>(&self, mut write: impl FnMut(&[u8]) -> Result<(), E>) -> Result<(), E> {
         let header = Header {
+            coordinate_bits: bits_of::<T>(),
             body_checksum: self.body_checksum(),
             counts: self.section_counts(),
             bounds: *self.tree().bounds(),
@@ -47,6 +47,11 @@ impl Scene {
         };
         write(&header.to_bytes())?;
         self.write_body(write)
+    }
+
+    fn sections(&self) -> Sections {
+        let sections = Sections::new(bits_of::<T>(), &self.section_counts());
+        sections.expect("what is in memory fits a file")
     }
 
     fn wide_parts(&self) -> WideParts {
@@ -79,8 +84,7 @@ impl Scene {
     /// All that follows the header.
     fn write_body<E>(&self, mut write: impl FnMut(&[u8]) -> Result<(), E>) -> Result<(), E> {
         let (mesh, tree, wide) = (self.mesh(), self.tree(), self.wide_parts());
-        let sections =
-            Sections::new(&self.section_counts()).expect("what is in memory fits a file");
+        let sections = self.sections();
         let mut gaps = sections.gaps();
         let mut fill = |write: &mut dyn FnMut(&[u8]) -> Result<(), E>| {
             let gap = gaps.next().map_or(0, |gap| gap.end - gap.start);

@@ -1,6 +1,7 @@
 //! What the coordinates of vertices are: f32 or f64.
 
 use super::TreeSpace;
+use crate::memory::Words;
 use std::fmt::Debug;
 
 /// A coordinate of a vertex: f32 or f64. Nothing else can be one.
@@ -15,6 +16,14 @@ pub trait Coordinate: Sealed + Copy + Debug + Default + PartialOrd + Send + Sync
     /// How far, in the tree's coordinates, a ray may pass a point there that it meets in the mesh. Zero for
     /// numbers that fit.
     const TREE_ERROR: f64;
+
+    /// What tells numbers apart.
+    #[doc(hidden)]
+    type Bits: Ord + Copy + Send;
+
+    /// The number's bits, those of the two zeros alike.
+    #[doc(hidden)]
+    fn bits(self) -> Self::Bits;
 
     /// The same number.
     fn to_f64(self) -> f64;
@@ -34,15 +43,25 @@ pub trait Coordinate: Sealed + Copy + Debug + Default + PartialOrd + Send + Sync
 }
 
 mod sealed {
-    pub trait Sealed {}
+    pub trait Sealed: bytemuck::Pod {}
     impl Sealed for f32 {}
     impl Sealed for f64 {}
 }
 use sealed::Sealed;
 
+impl<T: Coordinate> Words for [T; 3] {
+    const WORD: usize = size_of::<T>();
+}
+
 impl Coordinate for f32 {
     const FITS_TREE: bool = true;
     const TREE_ERROR: f64 = 0.0;
+    type Bits = u32;
+
+    #[inline]
+    fn bits(self) -> u32 {
+        (self + 0.0).to_bits()
+    }
 
     #[inline(always)]
     fn to_f64(self) -> f64 {
@@ -75,6 +94,12 @@ impl Coordinate for f32 {
 impl Coordinate for f64 {
     const FITS_TREE: bool = false;
     const TREE_ERROR: f64 = TreeSpace::ERROR;
+    type Bits = u64;
+
+    #[inline]
+    fn bits(self) -> u64 {
+        (self + 0.0).to_bits()
+    }
 
     #[inline(always)]
     fn to_f64(self) -> f64 {

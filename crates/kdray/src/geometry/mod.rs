@@ -28,3 +28,4 @@ pub use ray_packet::{Common, RayPacket};
 pub(crate) use slack::{t_above, t_below, widened};
 pub use tile_order::{TILE, tile_order};
 pub use tree_space::TreeSpace;
+pub(crate) use tree_space::inverse_power_of_two;

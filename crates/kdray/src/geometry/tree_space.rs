@@ -1,6 +1,6 @@
 //! The coordinates that the trees over f64 meshes are in.
 
-use super::{Coordinate, Ray};
+use super::{Aabb, Coordinate, Ray};
 
 /// The coordinates of a tree: a point of the mesh less a centre, times a power of two.
 ///
@@ -68,6 +68,25 @@ impl TreeSpace {
         [(x - a) * scale, (y - b) * scale, (z - c) * scale]
     }
 
+    /// What is in a box of the tree, in the mesh's coordinates: its least and its greatest corner, but for
+    /// rounding.
+    pub(crate) fn corners_in_mesh(&self, bounds: &Aabb<3>) -> [[f64; 3]; 2] {
+        let place = |corner: [f32; 3]| {
+            std::array::from_fn(|k| {
+                let way = f64::from(corner[k]) / self.scale;
+                way.clamp(f64::MIN, f64::MAX) + self.center[k]
+            })
+        };
+        [place(bounds.min), place(bounds.max)]
+    }
+
+    /// How far a point may be, in the tree, from where it would be without rounding: a relative 2^-53 on each
+    /// axis.
+    #[inline]
+    pub(crate) fn point_error([x, y, z]: [f64; 3]) -> f64 {
+        f64::EPSILON * (x.abs() + y.abs() + z.abs())
+    }
+
     /// A ray as the tree sees it: t is the same. `None` if its numbers would over- or underflow.
     ///
     /// What underflow takes of a component is less than 2^-1074: along the ray, whose largest is above
@@ -82,8 +101,8 @@ impl TreeSpace {
     }
 }
 
-/// The power of two that makes `x` one to two, as far as there is one.
-fn inverse_power_of_two(x: f64) -> f64 {
+/// The power of two that makes `x` one to two, as far as there is one; 1 for zero.
+pub(crate) fn inverse_power_of_two(x: f64) -> f64 {
     const EXPONENT: u64 = 0x7ff << 52;
     // From 2^-1021 on, so that the inverse is finite, too.
     let x = if x > 0.0 { x.max(2.0 * f64::MIN_POSITIVE) } else { 1.0 };

@@ -3,13 +3,15 @@
 use super::home::{Home, Site};
 use super::size::{SLOT_BYTES, Size};
 use super::{TriangleBlock, WideNode};
-use crate::memory::Store;
+use crate::memory::{Store, Words};
 use bytemuck::{Pod, Zeroable, must_cast, must_cast_ref};
 
 /// As much as a processor fetches at once.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 #[repr(C, align(64))]
 pub(crate) struct Line([u32; 16]);
+
+impl Words for Line {}
 
 pub(super) const NODE_LINES: usize = size_of::<WideNode>() / size_of::<Line>();
 pub(super) const BLOCK_LINES: usize = size_of::<TriangleBlock>() / size_of::<Line>();

@@ -1,7 +1,7 @@
 //! Triangles in clusters, each with what it looks like from afar (Barill et al. 2018).
 
 use super::moments::Moments;
-use crate::geometry::Aabb;
+use crate::geometry::Coordinate;
 use crate::primitives::{Primitives, TriangleMesh};
 use glam::DVec3;
 
@@ -12,6 +12,8 @@ const LEAF: usize = 8;
 /// each.
 #[derive(Clone, Debug, Default)]
 pub struct Clusters {
+    /// The power of two by which clusters are larger than the mesh, so that nothing overflows.
+    scale: f64,
     clusters: Vec<Cluster>,
     ids: Vec<u32>,
 }
@@ -42,7 +44,7 @@ struct Piece {
 impl Clusters {
     /// Puts the triangles of a mesh in clusters; those without area, which cover nothing, are left
     /// out. O(N log N); takes 56 bytes a triangle more while it works.
-    pub fn of(mesh: &TriangleMesh) -> Self {
+    pub fn of<T: Coordinate>(mesh: &TriangleMesh<T>) -> Self {
         let pieces = (0..mesh.count() as u32).map(|id| Piece::of(mesh, id));
         let mut pieces: Vec<Piece> = pieces.filter(|p| p.normal != DVec3::ZERO).collect();
         let mut clusters = Vec::with_capacity(pieces.len() / 2);
@@ -51,7 +53,14 @@ impl Clusters {
             push_cluster(mesh, &mut pieces, (0, last), &mut clusters);
         }
         clusters.shrink_to_fit();
-        Self { clusters, ids: pieces.iter().map(|piece| piece.id).collect() }
+        let scale = mesh.tree_space().scale();
+        Self { scale, clusters, ids: pieces.iter().map(|piece| piece.id).collect() }
+    }
+
+    /// Where a point of the mesh is among the clusters.
+    pub(crate) fn place(&self, point: [f64; 3]) -> DVec3 {
+        // From beyond the largest f64 all looks as from there.
+        (DVec3::from(point) * self.scale).clamp(DVec3::MIN, DVec3::MAX)
     }
 
     /// The clusters in depth-first order: those within one stand behind it.
@@ -73,20 +82,23 @@ impl Cluster {
 }
 
 impl Piece {
-    fn of(mesh: &TriangleMesh, id: u32) -> Self {
+    fn of<T: Coordinate>(mesh: &TriangleMesh<T>, id: u32) -> Self {
         let [a, b, c] = corners(mesh, id);
         Self { id, middle: (a + b + c) / 3.0, normal: 0.5 * (b - a).cross(c - a) }
     }
 }
 
-fn corners(mesh: &TriangleMesh, id: u32) -> [DVec3; 3] {
-    mesh.corners(id).map(|p| DVec3::from(p.map(f64::from)))
+/// The corners of a triangle, in the mesh's coordinates but for the scale: these are the same for f32 and
+/// f64.
+fn corners<T: Coordinate>(mesh: &TriangleMesh<T>, id: u32) -> [DVec3; 3] {
+    let scale = mesh.tree_space().scale();
+    mesh.corners(id).map(|p| DVec3::from(p.map(T::to_f64)) * scale)
 }
 
 /// Appends the cluster of `pieces`, which stand from `first` to `last` in the list of all, and those
 /// within it: halves by the number of triangles, across the longest side of the box of their middles.
-fn push_cluster(
-    mesh: &TriangleMesh,
+fn push_cluster<T: Coordinate>(
+    mesh: &TriangleMesh<T>,
     pieces: &mut [Piece],
     (first, last): (usize, usize),
     clusters: &mut Vec<Cluster>,
@@ -107,7 +119,11 @@ fn push_cluster(
     clusters[place].next = clusters.len() as u32;
 }
 
-fn cluster(mesh: &TriangleMesh, pieces: &[Piece], (first, last): (usize, usize)) -> Cluster {
+fn cluster<T: Coordinate>(
+    mesh: &TriangleMesh<T>,
+    pieces: &[Piece],
+    (first, last): (usize, usize),
+) -> Cluster {
     let area: f64 = pieces.iter().map(|piece| piece.normal.length()).sum();
     let weighted: DVec3 = pieces.iter().map(|piece| piece.normal.length() * piece.middle).sum();
     let center = weighted / area;
@@ -121,5 +137,9 @@ fn cluster(mesh: &TriangleMesh, pieces: &[Piece], (first, last): (usize, usize))
 }
 
 fn longest_axis(pieces: &[Piece]) -> usize {
-    Aabb::of_points(pieces.iter().map(|piece| piece.middle.as_vec3().to_array())).longest_axis()
+    let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    for piece in pieces {
+        (low, high) = (low.min(piece.middle), high.max(piece.middle));
+    }
+    (high - low).max_position()
 }

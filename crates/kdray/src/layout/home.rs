@@ -2,6 +2,7 @@
 
 use super::Link;
 use crate::geometry::Aabb;
+use crate::memory::Words;
 use bytemuck::{Pod, Zeroable, must_cast_ref};
 
 /// What is known of a wide node but not needed on the way down, in 32 bytes.
@@ -21,6 +22,8 @@ pub(crate) struct Home {
     /// Where the node lies: which child of its parent it is in the bits 28 to 30, above its line.
     node: u32,
 }
+
+impl Words for Home {}
 
 const PLACE_SHIFT: u32 = 28;
 

@@ -5,8 +5,10 @@ use super::home::Home;
 use super::homes::Homes;
 use super::wide::reach;
 use super::{WideError, WideTree, structure};
-use crate::geometry::{Aabb, TreeSpace};
+use crate::geometry::Coordinate;
 use crate::memory::Store;
+use crate::primitives::{Primitives, TriangleMesh};
+use crate::tree::KdTree;
 
 /// All that a wide tree is made of, but for its reach, which follows from the root's box.
 #[derive(Clone, Default)]
@@ -34,22 +36,22 @@ impl WideTree {
         }
     }
 
-    /// The tree that the parts make, if its structure is right; `bounds` is the root's box, and
-    /// `triangles` says how many there are.
-    pub(crate) fn of_parts(
+    /// The tree that the parts make, if its structure is right: the wide form of `tree`, which is one over
+    /// `mesh`.
+    pub(crate) fn of_parts<T: Coordinate>(
         parts: WideParts,
-        bounds: &Aabb<3>,
-        triangles: usize,
+        tree: &KdTree<3>,
+        mesh: &TriangleMesh<T>,
     ) -> Result<Self, WideError> {
         let WideParts { lines, homes, above } = parts;
-        let reach = reach(bounds).filter(|_| Arena::can_link(lines.len()));
+        let reach = reach(tree.bounds()).filter(|_| Arena::can_link(lines.len()));
         let reach = reach.ok_or(WideError::OutOfRange)?;
         let arena = Arena::new(lines);
-        structure::check(&arena, &homes, triangles)?;
+        structure::check(&arena, &homes, mesh.count())?;
         if above.len() != arena.slot_count() {
             return Err(WideError::Unreached { reached: arena.slot_count(), lines: above.len() });
         }
-        let (homes, space) = (Homes::of_stores(homes, above), TreeSpace::OF_MESH);
+        let (homes, space) = (Homes::of_stores(homes, above), *mesh.tree_space());
         Ok(Self { homes, arena, reach, space })
     }
 }

@@ -13,7 +13,7 @@ use super::treelet::Treelet;
 use super::wide::{FULL_MARGIN, margin};
 use super::{Link, TriangleBlock, WideError, WideNode, WideTree};
 use crate::build::parallel::map_all;
-use crate::geometry::Aabb;
+use crate::geometry::{Aabb, Coordinate};
 use crate::primitives::{Primitives, TriangleMesh};
 use crate::tree::{KdTree, NodeKind};
 use bytemuck::bytes_of;
@@ -26,10 +26,10 @@ const LEAST_MARGIN: f32 = 10.0;
 /// How many levels of wide nodes are verified on several threads: enough for some hundred parts.
 const LEVELS: usize = 3;
 
-struct Verifier<'a> {
+struct Verifier<'a, T: 'static> {
     wide: &'a WideTree,
     tree: &'a KdTree<3>,
-    mesh: &'a TriangleMesh,
+    mesh: &'a TriangleMesh<T>,
     matching: Matching<'a>,
 }
 
@@ -48,13 +48,17 @@ struct Stand {
 impl WideTree {
     /// Checks a wide tree, whose structure is known to be right, against the canonical tree, which is
     /// known to be valid.
-    pub(crate) fn verify(&self, tree: &KdTree<3>, mesh: &TriangleMesh) -> Result<(), WideError> {
+    pub(crate) fn verify<T: Coordinate>(
+        &self,
+        tree: &KdTree<3>,
+        mesh: &TriangleMesh<T>,
+    ) -> Result<(), WideError> {
         let matching = Matching::new(self, tree);
         Verifier { wide: self, tree, mesh, matching }.verify()
     }
 }
 
-impl Verifier<'_> {
+impl<T: Coordinate> Verifier<'_, T> {
     fn verify(&self) -> Result<(), WideError> {
         let root = Aabb { min: [f32::NEG_INFINITY; 3], max: [f32::INFINITY; 3] };
         let stand = Stand { node: 0, cell: *self.tree.bounds(), site: Site::ROOT, bounds: root };
@@ -134,7 +138,7 @@ impl Verifier<'_> {
             return Err(WideError::NotTheTrees { line: above.line() });
         }
         for (index, ids) in ids.chunks(TriangleBlock::WIDTH).enumerate() {
-            let triangles = ids.iter().map(|&id| (id, self.mesh.corners(id)));
+            let triangles = ids.iter().map(|&id| (id, self.mesh.rounded_corners(id)));
             let expected = TriangleBlock::new(triangles);
             let block = self.wide.block(link, index);
             if bytes_of(block) != bytes_of(&expected) {

@@ -5,7 +5,7 @@ mod aligned;
 mod store;
 
 pub use aligned::AlignedBytes;
-pub(crate) use store::Store;
+pub(crate) use store::{Store, Words};
 
 use std::sync::Arc;
 

@@ -1,7 +1,7 @@
 //! An array that does not change any more, whoever owns its memory.
 
 use super::SharedBytes;
-use bytemuck::{Pod, bytes_of_mut, pod_collect_to_vec, try_cast_slice};
+use bytemuck::{Pod, bytes_of_mut, try_cast_slice};
 use std::fmt::{Debug, Formatter};
 use std::ops::{Deref, Range};
 use std::sync::Arc;
@@ -10,6 +10,15 @@ use yoke::Yoke;
 /// An array that does not change any more. To use it costs as much as a `Vec`: where it lies is looked
 /// up once, when it is made. Clones share it.
 pub(crate) struct Store<T: 'static>(Yoke<&'static [T], Arc<dyn Owner<T>>>);
+
+/// What arrays in files are made of: numbers of so many bytes each.
+pub(crate) trait Words: Pod + Send + Sync {
+    /// How long a number is.
+    const WORD: usize = 4;
+}
+
+impl Words for u32 {}
+impl Words for [u32; 3] {}
 
 /// Whoever owns the memory of an array.
 trait Owner<T>: Send + Sync {
@@ -47,12 +56,10 @@ impl<T: Send + Sync> Store<T> {
     }
 }
 
-impl<T: Pod + Send + Sync> Store<T> {
+impl<T: Words> Store<T> {
     /// The array that lies in a part of `bytes`, little-endian: in place, or as a copy where the part is
     /// not aligned, or the processor is big-endian. Of a part that is no whole number of items, or not
     /// within the bytes, nothing.
-    ///
-    /// T is made of numbers of four bytes.
     pub(crate) fn in_bytes(bytes: &SharedBytes, range: Range<usize>) -> Self {
         let part = Part { bytes: bytes.clone(), range };
         if cfg!(target_endian = "little") && try_cast_slice::<u8, T>(part.get()).is_ok() {
@@ -61,7 +68,8 @@ impl<T: Pod + Send + Sync> Store<T> {
         let whole = part.get().chunks_exact(size_of::<T>());
         let items = whole.map(|bytes| {
             let mut item = T::zeroed();
-            bytes_of_mut(&mut item).copy_from_slice(&to_little_endian(bytes));
+            bytes_of_mut(&mut item).copy_from_slice(bytes);
+            to_little_endian(bytes_of_mut(&mut item), T::WORD);
             item
         });
         Self::from(items.collect::<Vec<T>>())
@@ -73,22 +81,28 @@ impl<T: Pod + Send + Sync> Store<T> {
     }
 }
 
-/// Gives `write` an array of numbers of four bytes as little-endian bytes, in pieces.
-fn write_little_endian<T: Pod, E>(
+/// Gives `write` an array as little-endian bytes, in pieces.
+fn write_little_endian<T: Words, E>(
     items: &[T],
     mut write: impl FnMut(&[u8]) -> Result<(), E>,
 ) -> Result<(), E> {
     const PIECE: usize = 1 << 12;
     items.chunks(PIECE).try_for_each(|piece| {
         let bytes = bytemuck::cast_slice(piece);
-        if cfg!(target_endian = "little") { write(bytes) } else { write(&to_little_endian(bytes)) }
+        if cfg!(target_endian = "little") {
+            return write(bytes);
+        }
+        let mut bytes = bytes.to_vec();
+        to_little_endian(&mut bytes, T::WORD);
+        write(&bytes)
     })
 }
 
-/// The same numbers of four bytes in the other order of bytes, if this processor's is not little-endian.
-fn to_little_endian(bytes: &[u8]) -> Vec<u8> {
-    let words: Vec<u32> = pod_collect_to_vec(bytes);
-    words.into_iter().flat_map(u32::to_le_bytes).collect()
+/// Puts the bytes of numbers of `word` bytes into the other order, if this processor's is not little-endian.
+fn to_little_endian(bytes: &mut [u8], word: usize) {
+    if cfg!(target_endian = "big") {
+        bytes.chunks_exact_mut(word).for_each(<[u8]>::reverse);
+    }
 }
 
 #[cfg(test)]
@@ -150,6 +164,8 @@ impl<T: PartialEq> PartialEq for Store<T> {
 mod tests {
     use super::super::AlignedBytes;
     use super::*;
+
+    impl Words for f32 {}
 
     fn shared(bytes: &[u8]) -> SharedBytes {
         Arc::new(AlignedBytes::from(bytes))

@@ -1,5 +1,6 @@
 //! The point of a triangle that is nearest to a given one.
 
+use super::range::in_range;
 use crate::exact::{is_on_triangle, not_vanished};
 use glam::DVec3;
 
@@ -10,7 +11,7 @@ pub struct ClosestPoint {
     pub point: [f64; 3],
     /// How far it is from the given point. Zero exactly where that lies on the triangle; else it
     /// errs by 2^-46 of the distance from there to the triangle's farthest corner at most, usually
-    /// by 2^-52.
+    /// by 2^-52; near the smallest f64 by one of these.
     pub distance: f64,
     /// The index of the triangle.
     pub primitive_id: u32,
@@ -36,32 +37,25 @@ impl ClosestPoint {
 /// and 3 more of the length. It is too large by rounding, and by what u and v are off.
 pub(crate) const DISTANCE_ERROR: f64 = 64.0 * f64::EPSILON;
 
-/// Farther from zero than this, squares overflow. What f32 holds is a point from there: all its
-/// distances are the same f64.
-pub(crate) const FARTHEST: f64 = 1e150;
-
 /// The point of a triangle that is nearest to `point`, whose coordinates are finite.
 ///
 /// The triangle is a closed set; one without area is the segment, or the point, that its corners
 /// span. Of triangles that share a vertex or an edge, all report the same distance to it, to the
-/// last bit. Where `point` is more than 1e150 from zero, the nearest point is the first corner, and
-/// the distance at most the largest f64.
+/// last bit. It is the largest f64 at most.
 pub fn closest_on_triangle(point: [f64; 3], corners: [[f64; 3]; 3], id: u32) -> ClosestPoint {
-    let [a, b, c] = corners.map(DVec3::from);
-    let p = DVec3::from(point);
-    if p.abs().max_element() > FARTHEST {
-        let distance = scaled_length(p);
-        return ClosestPoint { point: corners[0], distance, primitive_id: id, u: 0.0, v: 0.0 };
-    }
+    let ([p, a, b, c], scale) = in_range([point, corners[0], corners[1], corners[2]]);
     let nearest = in_face(p, [a, b, c]).unwrap_or_else(|| on_border(p, [a, b, c]));
-    let distance = nearest.way.length();
+    let length = nearest.way.length();
+    let distance = not_vanished(length / scale).min(f64::MAX);
     let size = (p - a).length_squared().max((p - b).length_squared()).max((p - c).length_squared());
-    if distance > DISTANCE_ERROR * size.sqrt() {
+    if length > DISTANCE_ERROR * size.sqrt() {
         let place = a + (nearest.u * (b - a) + nearest.v * (c - a));
-        return nearest.reported(place, distance, id);
+        // Of the largest numbers rounding may leave none.
+        let place = (place / scale).clamp(DVec3::MIN, DVec3::MAX);
+        return nearest.reported(place.into(), distance, id);
     }
-    let distance = if is_on_triangle(point, corners) { 0.0 } else { not_vanished(distance) };
-    nearest.reported(p, distance, id)
+    let distance = if is_on_triangle(point, corners) { 0.0 } else { distance };
+    nearest.reported(point, distance, id)
 }
 
 /// A nearest point by its weights, and the way from it to the given one.
@@ -73,8 +67,8 @@ struct Nearest {
 }
 
 impl Nearest {
-    fn reported(self, place: DVec3, distance: f64, primitive_id: u32) -> ClosestPoint {
-        ClosestPoint { point: place.into(), distance, primitive_id, u: self.u, v: self.v }
+    fn reported(self, point: [f64; 3], distance: f64, primitive_id: u32) -> ClosestPoint {
+        ClosestPoint { point, distance, primitive_id, u: self.u, v: self.v }
     }
 }
 
@@ -138,12 +132,6 @@ fn on_edge(p: DVec3, a: DVec3, b: DVec3) -> (f64, DVec3) {
     }
 }
 
-/// The length of a vector that is too long to be squared, at most the largest f64.
-fn scaled_length(v: DVec3) -> f64 {
-    let largest = v.abs().max_element();
-    ((v / largest).length() * largest).min(f64::MAX)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -204,5 +192,24 @@ mod tests {
             let expected = (far * std::f64::consts::SQRT_2).min(f64::MAX);
             assert!((found.distance / expected - 1.0).abs() < 1e-12, "{far}: {found:?}");
         }
+    }
+
+    #[test]
+    fn triangles_of_any_size_are_alike() {
+        for (point, u, v) in [([1.0, 2.0, 8.0], 0.25, 0.5), ([5.0, 5.0, 5.0], 0.5, 0.5)] {
+            let distance = nearest(point).distance;
+            for exponent in [-1050, -1000, -700, -400, -230, 230, 400, 700, 1000, 1020] {
+                let times =
+                    |x: f64| x * 2.0_f64.powi(exponent / 2) * 2.0_f64.powi(exponent - exponent / 2);
+                let corners = CORNERS.map(|p| p.map(times));
+                let found = closest_on_triangle(point.map(times), corners, 3);
+                assert_eq!((found.u, found.v), (u, v), "2^{exponent}");
+                let error = (found.distance - times(distance)).abs();
+                assert!(error <= 1e-15 * found.distance + 5e-324, "2^{exponent}: {found:?}");
+            }
+        }
+        let corners = [[f64::MAX; 3], [f64::MIN; 3], [f64::MAX, f64::MIN, f64::MAX]];
+        let found = closest_on_triangle([f64::MIN, f64::MAX, f64::MIN], corners, 0);
+        assert!(found.distance == f64::MAX && found.point.iter().all(|x| x.is_finite()));
     }
 }

@@ -1,6 +1,7 @@
 //! Whether a mesh is closed.
 
 use super::TriangleMesh;
+use crate::geometry::Coordinate;
 
 /// Whether a mesh is the boundary of something.
 ///
@@ -21,7 +22,7 @@ pub enum Closure {
 
 impl Closure {
     /// Says which `mesh` is. Takes 36 bytes a triangle while it works, and 8 a vertex.
-    pub fn of(mesh: &TriangleMesh) -> Self {
+    pub fn of<T: Coordinate>(mesh: &TriangleMesh<T>) -> Self {
         let names = names_of_positions(mesh);
         let mut edges = Vec::with_capacity(3 * mesh.triangles().len());
         for triangle in mesh.triangles() {
@@ -57,9 +58,8 @@ fn directed((from, to): (u32, u32)) -> ((u32, u32), bool) {
 }
 
 /// A number for each vertex that those at the same position share.
-fn names_of_positions(mesh: &TriangleMesh) -> Vec<u32> {
-    // Adding zero makes the two zeros one.
-    let position = |vertex: u32| mesh.vertices()[vertex as usize].map(|x| (x + 0.0).to_bits());
+fn names_of_positions<T: Coordinate>(mesh: &TriangleMesh<T>) -> Vec<u32> {
+    let position = |vertex: u32| mesh.vertices()[vertex as usize].map(T::bits);
     let mut order: Vec<u32> = (0..mesh.vertices().len() as u32).collect();
     sort_by_key(&mut order, position);
     let mut names = vec![0; order.len()];

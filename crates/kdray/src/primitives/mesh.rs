@@ -173,29 +173,31 @@ impl<T: Coordinate> Default for TriangleMesh<T> {
 }
 
 /// Meshes of tree files.
-impl TriangleMesh {
+impl<T: Coordinate> TriangleMesh<T> {
     /// A mesh of arrays that come from a file, after the checks of [`new`](Self::new), which take less
     /// time where nothing is wrong.
     pub(crate) fn of_stores(
-        vertices: Store<[f32; 3]>,
+        vertices: Store<[T; 3]>,
         triangles: Store<[u32; 3]>,
     ) -> Result<Self, MeshError> {
         if triangles.len() >= Self::MAX_TRIANGLES {
             return Err(MeshError::TooManyTriangles(triangles.len()));
         }
         let largest = triangles.as_flattened().iter().fold(0, |largest, &index| index.max(largest));
-        let finite = vertices.as_flattened().iter().fold(true, |all, x| all & x.is_finite());
+        let finite =
+            vertices.as_flattened().iter().fold(true, |all, x| all & x.to_f64().is_finite());
         // If not all is as it should be, perhaps what is wrong is not used.
         if !finite || largest as usize >= vertices.len() {
             let mut numbered = triangles.iter().enumerate();
             numbered
                 .try_for_each(|(index, triangle)| check_triangle(&vertices, index, triangle))?;
         }
-        Ok(Self { vertices, triangles, space: TreeSpace::OF_MESH })
+        let space = tree_space(&vertices, &triangles);
+        Ok(Self { vertices, triangles, space })
     }
 
     /// The vertex positions, to be saved.
-    pub(crate) fn vertex_store(&self) -> &Store<[f32; 3]> {
+    pub(crate) fn vertex_store(&self) -> &Store<[T; 3]> {
         &self.vertices
     }
 

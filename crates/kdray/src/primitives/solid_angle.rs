@@ -1,7 +1,7 @@
 //! How large a triangle looks from a point.
 
+use super::range::in_range;
 use crate::exact::side_of_plane;
-use glam::DVec3;
 use std::cmp::Ordering;
 use std::f64::consts::PI;
 
@@ -11,7 +11,8 @@ use std::f64::consts::PI;
 /// Van Oosterom and Strackee's formula (1983). Its sign is exact: near a triangle, where the share
 /// leaps from a half to minus a half, the side that the point is on is decided without rounding.
 pub fn solid_angle(point: [f64; 3], corners: [[f64; 3]; 3]) -> f64 {
-    let [a, b, c] = corners.map(|corner| DVec3::from(corner) - DVec3::from(point));
+    let ([p, a, b, c], _) = in_range([point, corners[0], corners[1], corners[2]]);
+    let [a, b, c] = [a - p, b - p, c - p];
     let (la, lb, lc) = (a.length(), b.length(), c.length());
     let volume = a.dot(b.cross(c));
     let below = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
@@ -46,6 +47,18 @@ mod tests {
         assert_eq!(solid_angle(on, CORNERS), 0.0);
         for (z, share) in [(0.5_f64.next_up(), -0.5), (0.5_f64.next_down(), 0.5)] {
             assert!((solid_angle([0.25, 0.25, z], CORNERS) - share).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn size_does_not_matter() {
+        for scale in [1e-310, 1e-200, 1e-90, 1e90, 1e200, 1e308] {
+            let corners = CORNERS.map(|p| p.map(|x| x * scale));
+            let share = solid_angle([0.25 * scale; 3], corners);
+            assert!(
+                (share / solid_angle([0.25; 3], CORNERS) - 1.0).abs() < 1e-12,
+                "{scale}: {share}"
+            );
         }
     }
 

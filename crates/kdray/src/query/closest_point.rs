@@ -1,10 +1,10 @@
 //! The nearest point of the mesh.
 
-use super::{Scene, points};
+use super::{Precision, Scene, points};
 use crate::primitives::ClosestPoint;
 use crate::traverse;
 
-impl Scene {
+impl<T: Precision> Scene<T> {
     /// The point of the mesh that is nearest to `point`; of several at the same distance, the one
     /// of the smallest primitive id. `None` for an empty mesh, or a point that is not finite.
     ///
@@ -25,7 +25,7 @@ impl Scene {
     /// ```
     #[must_use]
     pub fn closest_point(&self, point: [f64; 3]) -> Option<ClosestPoint> {
-        traverse::closest_point(self.tree(), self.wide_tree(), self.mesh(), point)
+        T::closest_point(self, point)
     }
 
     /// [`closest_point`](Self::closest_point) of each point, on this thread: `nearest[i]` is that
@@ -44,5 +44,10 @@ impl Scene {
     #[cfg(feature = "rayon")]
     pub fn par_closest_points(&self, points: &[[f64; 3]], nearest: &mut [Option<ClosestPoint>]) {
         points::par_each(points, nearest, |point| self.closest_point(point));
+    }
+
+    /// What [`Precision`] compiles.
+    pub(super) fn find_closest_point(&self, point: [f64; 3]) -> Option<ClosestPoint> {
+        traverse::closest_point(self.tree(), self.wide_tree(), self.mesh(), point)
     }
 }

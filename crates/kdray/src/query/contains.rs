@@ -1,12 +1,12 @@
 //! Inside or outside.
 
-use super::{Scene, points};
+use super::{Precision, Scene, points};
 use crate::exact::is_on_triangle;
 use crate::geometry::Ray;
 use crate::primitives::Closure;
 use crate::traverse::CellWalk;
 
-impl Scene {
+impl<T: Precision> Scene<T> {
     /// Whether `point` is inside the mesh or on its surface. Never so for a point that is not
     /// finite.
     ///
@@ -35,8 +35,7 @@ impl Scene {
     /// ```
     #[must_use]
     pub fn contains(&self, point: [f64; 3]) -> bool {
-        point.iter().all(|x| x.is_finite())
-            && (self.is_on_surface(point) || self.contains_off_surface(point))
+        T::contains(self, point)
     }
 
     /// [`contains`](Self::contains) of each point, on this thread: `inside[i]` is that of
@@ -60,15 +59,22 @@ impl Scene {
     /// Whether the mesh is closed, and whether it faces one way. Found out when it is first asked
     /// for, by sorting the edges; clones of the scene share the answer.
     pub fn closure(&self) -> Closure {
-        *self.trees.for_points.closure.get_or_init(|| Closure::of(self.mesh()))
+        *self.trees.for_points.closure.get_or_init(|| T::closure(self.mesh()))
     }
 
-    /// Whether a point with finite coordinates lies on a triangle. Exact.
+    /// What [`Precision`] compiles.
+    pub(super) fn finds_inside(&self, point: [f64; 3]) -> bool {
+        point.iter().all(|x| x.is_finite())
+            && (self.is_on_surface(point) || self.contains_off_surface(point))
+    }
+
+    /// Whether a point with finite coordinates lies on a triangle. Exact: a point of a triangle is, in the
+    /// tree, in the cell of a leaf that lists it, whatever was rounded on the way there.
     pub(super) fn is_on_surface(&self, point: [f64; 3]) -> bool {
         let mesh = self.mesh();
-        let mut cells = CellWalk::new(self.tree(), point);
+        let mut cells = CellWalk::new(self.tree(), mesh.tree_space().point(point));
         std::iter::from_fn(|| cells.next_leaf(0.0)).flatten().any(|&id| {
-            let corners = mesh.corners(id).map(|p| p.map(f64::from));
+            let corners = mesh.corners(id).map(|p| p.map(T::to_f64));
             is_on_triangle(point, corners)
         })
     }
@@ -84,20 +90,21 @@ impl Scene {
 
     /// A ray from the point to the nearest face of the box around the mesh, and on; `None` if the
     /// point is outside of it. Not quite parallel to an axis, for triangles often are, and those that
-    /// a ray runs in need the exact test.
+    /// a ray runs in need the exact test. Its t are some units of the tree.
     pub(super) fn way_out(&self, point: [f64; 3]) -> Option<Ray> {
-        let bounds = self.tree().bounds();
-        if !bounds.contains(point) {
+        let (bounds, space) = (self.tree().bounds(), self.mesh().tree_space());
+        let in_tree = space.point(point);
+        if !bounds.contains(in_tree) {
             return None;
         }
         let ways = (0..3).flat_map(|axis| {
             let (min, max) = (f64::from(bounds.min[axis]), f64::from(bounds.max[axis]));
-            [(axis, -1.0, point[axis] - min), (axis, 1.0, max - point[axis])]
+            [(axis, -1.0, in_tree[axis] - min), (axis, 1.0, max - in_tree[axis])]
         });
         let (axis, sign, _) = ways.min_by(|a, b| a.2.total_cmp(&b.2))?;
         let mut direction = [1.0 / 29.0; 3];
         direction[axis] = sign;
         direction[(axis + 1) % 3] = 1.0 / 53.0;
-        Some(Ray::new(point, direction))
+        Some(Ray::new(point, direction.map(|d| d / space.scale())))
     }
 }

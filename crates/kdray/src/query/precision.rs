@@ -3,9 +3,10 @@
 use super::Scene;
 use crate::build::{BuildError, BuildOptions, BuildProgress};
 use crate::geometry::{Coordinate, Ray, RayPacket};
-use crate::layout::Hint;
-use crate::primitives::{Hit, HitArrays, TriangleMesh};
+use crate::layout::{Hint, WideError, WideTree};
+use crate::primitives::{ClosestPoint, Closure, Hit, HitArrays, Side, TriangleMesh};
 use crate::traverse::wide::packet::PacketWork;
+use crate::tree::TreeError;
 use std::ops::ControlFlow;
 
 /// What may be told how far a build is.
@@ -54,6 +55,29 @@ pub trait Precision: Coordinate {
         packet: &RayPacket<'_>,
         found: &mut [bool],
     ) -> PacketWork;
+    #[doc(hidden)]
+    fn closest_point(scene: &Scene<Self>, point: [f64; 3]) -> Option<ClosestPoint>;
+    #[doc(hidden)]
+    fn contains(scene: &Scene<Self>, point: [f64; 3]) -> bool;
+    #[doc(hidden)]
+    fn signed_distance(scene: &Scene<Self>, point: [f64; 3]) -> Option<f64>;
+    #[doc(hidden)]
+    fn winding_number(scene: &Scene<Self>, point: [f64; 3]) -> f64;
+    #[doc(hidden)]
+    fn closure(mesh: &TriangleMesh<Self>) -> Closure;
+    #[doc(hidden)]
+    fn visible(scene: &Scene<Self>, from: [f64; 3], to: [f64; 3]) -> bool;
+    #[doc(hidden)]
+    fn thickness(
+        scene: &Scene<Self>,
+        primitive_id: u32,
+        weights: [f64; 2],
+        side: Side,
+    ) -> Option<f64>;
+    #[doc(hidden)]
+    fn verify_tree(scene: &Scene<Self>) -> Result<(), TreeError>;
+    #[doc(hidden)]
+    fn verify_wide_tree(scene: &Scene<Self>) -> Result<(), WideError>;
 }
 
 macro_rules! compile_for {
@@ -127,6 +151,48 @@ macro_rules! compile_for {
                     found: &mut [bool],
                 ) -> PacketWork {
                     scene.find_packet_any_hits(packet, found)
+                }
+
+                fn closest_point(scene: &Scene<Self>, point: [f64; 3]) -> Option<ClosestPoint> {
+                    scene.find_closest_point(point)
+                }
+
+                fn contains(scene: &Scene<Self>, point: [f64; 3]) -> bool {
+                    scene.finds_inside(point)
+                }
+
+                fn signed_distance(scene: &Scene<Self>, point: [f64; 3]) -> Option<f64> {
+                    scene.find_signed_distance(point)
+                }
+
+                fn winding_number(scene: &Scene<Self>, point: [f64; 3]) -> f64 {
+                    scene.find_winding_number(point)
+                }
+
+                fn closure(mesh: &TriangleMesh<Self>) -> Closure {
+                    Closure::of(mesh)
+                }
+
+                fn visible(scene: &Scene<Self>, from: [f64; 3], to: [f64; 3]) -> bool {
+                    scene.finds_visible(from, to)
+                }
+
+                fn thickness(
+                    scene: &Scene<Self>,
+                    primitive_id: u32,
+                    weights: [f64; 2],
+                    side: Side,
+                ) -> Option<f64> {
+                    scene.find_thickness(primitive_id, weights, side)
+                }
+
+                fn verify_tree(scene: &Scene<Self>) -> Result<(), TreeError> {
+                    scene.tree().validate(scene.mesh())
+                }
+
+                fn verify_wide_tree(scene: &Scene<Self>) -> Result<(), WideError> {
+                    let verify = |wide: &WideTree| wide.verify(scene.tree(), scene.mesh());
+                    scene.wide_tree().map_or(Ok(()), verify)
                 }
             }
         )*

@@ -162,10 +162,10 @@ impl<T: Precision> Scene<T> {
 }
 
 /// Scenes of tree files.
-impl Scene {
+impl<T: Precision> Scene<T> {
     /// Trees over `mesh` as they are, which lie in the bytes of `source` if it is given.
     pub(crate) fn of_trees(
-        mesh: TriangleMesh,
+        mesh: TriangleMesh<T>,
         tree: KdTree,
         wide: Option<WideTree>,
         source: Option<SharedBytes>,

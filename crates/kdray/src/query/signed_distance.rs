@@ -1,8 +1,8 @@
 //! How deep inside, or how far outside.
 
-use super::{Scene, points};
+use super::{Precision, Scene, points};
 
-impl Scene {
+impl<T: Precision> Scene<T> {
     /// The distance from `point` to the mesh: negative inside, positive outside, zero on the
     /// surface. `None` for an empty mesh, or a point that is not finite.
     ///
@@ -21,7 +21,12 @@ impl Scene {
     /// ```
     #[must_use]
     pub fn signed_distance(&self, point: [f64; 3]) -> Option<f64> {
-        let distance = self.closest_point(point)?.distance;
+        T::signed_distance(self, point)
+    }
+
+    /// What [`Precision`] compiles.
+    pub(super) fn find_signed_distance(&self, point: [f64; 3]) -> Option<f64> {
+        let distance = self.find_closest_point(point)?.distance;
         let is_inside = distance > 0.0 && self.contains_off_surface(point);
         Some(if is_inside { -distance } else { distance })
     }

@@ -1,14 +1,13 @@
 //! How thick the material behind a surface is.
 
-use super::Scene;
+use super::{Precision, Scene};
 use crate::geometry::Ray;
-use crate::primitives::Side;
-use glam::DVec3;
+use crate::primitives::{Side, in_range};
 
 /// A weight this small counts as none: what u and v of hits may be off by.
 const NO_WEIGHT: f64 = 1.0 / (1u64 << 30) as f64;
 
-impl Scene {
+impl<T: Precision> Scene<T> {
     /// How far it is from a point of a triangle, straight through the material behind it, to the
     /// next surface. The point has the barycentric weights u and v, as hits and closest points have
     /// them; `side` is the side that is seen from outside, and the way leads off the other side, at
@@ -33,6 +32,16 @@ impl Scene {
     /// ```
     #[must_use]
     pub fn thickness(&self, primitive_id: u32, u: f64, v: f64, side: Side) -> Option<f64> {
+        T::thickness(self, primitive_id, [u, v], side)
+    }
+
+    /// What [`Precision`] compiles.
+    pub(super) fn find_thickness(
+        &self,
+        primitive_id: u32,
+        [u, v]: [f64; 2],
+        side: Side,
+    ) -> Option<f64> {
         if primitive_id as usize >= self.mesh().triangles().len() {
             return None;
         }
@@ -49,15 +58,18 @@ impl Scene {
             held.iter().all(|corner| others.contains(corner))
         };
         let behind = self.shapes().closest_hit_where(&ray, |hit| !starts_here(hit.primitive_id));
-        behind.map(|hit| hit.t)
+        behind.map(|hit| hit.t / self.mesh().tree_space().scale())
     }
 
-    /// The ray from a point of a triangle away from `side`, with a direction of length one; `None`
-    /// if the triangle has no area.
+    /// The ray from a point of a triangle away from `side`, with a direction as long as a unit of the
+    /// tree; `None` if the triangle has no area.
     fn inward(&self, primitive_id: u32, [u, v]: [f64; 2], side: Side) -> Option<Ray> {
-        let [a, b, c] = self.mesh().corners(primitive_id).map(|p| DVec3::from(p.map(f64::from)));
-        let normal = DVec3::from(self.mesh().geometric_normal(primitive_id)).try_normalize()?;
-        let direction = if side == Side::Front { -normal } else { normal };
-        Some(Ray::new(a + (u * (b - a) + v * (c - a)), direction))
+        let corners = self.mesh().corners(primitive_id).map(|p| p.map(T::to_f64));
+        let ([a, b, c], scale) = in_range(corners);
+        let normal = (b - a).cross(c - a).try_normalize()?;
+        let unit = self.mesh().tree_space().scale();
+        let direction = if side == Side::Front { -normal } else { normal } / unit;
+        let origin = a + (u * (b - a) + v * (c - a));
+        Some(Ray::new(origin / scale, direction))
     }
 }

@@ -1,9 +1,9 @@
 //! Whether two points see each other.
 
-use super::Scene;
+use super::{Precision, Scene};
 use crate::traverse;
 
-impl Scene {
+impl<T: Precision> Scene<T> {
     /// Whether nothing is strictly between two points: no triangle has them on opposite sides of
     /// its plane and is met, be it at an edge or a vertex, by the line between them.
     ///
@@ -23,6 +23,11 @@ impl Scene {
     /// ```
     #[must_use]
     pub fn visible(&self, from: [f64; 3], to: [f64; 3]) -> bool {
+        T::visible(self, from, to)
+    }
+
+    /// What [`Precision`] compiles.
+    pub(super) fn finds_visible(&self, from: [f64; 3], to: [f64; 3]) -> bool {
         traverse::is_visible(self.tree(), self.mesh(), from, to)
     }
 }

@@ -1,11 +1,11 @@
 //! How often the mesh winds around a point.
 
-use super::{Scene, points};
+use super::{Precision, Scene, points};
 use crate::layout::Clusters;
 use crate::primitives::{Closure, Side};
 use crate::traverse;
 
-impl Scene {
+impl<T: Precision> Scene<T> {
     /// How often the mesh winds around `point` (Jacobson et al. 2013): the solid angles of its
     /// triangles, positive for those seen from behind, as a share of the sphere. NaN for a point
     /// that is not finite.
@@ -33,13 +33,7 @@ impl Scene {
     /// ```
     #[must_use]
     pub fn winding_number(&self, point: [f64; 3]) -> f64 {
-        if !point.iter().all(|x| x.is_finite()) {
-            return f64::NAN;
-        }
-        if self.closure() == Closure::Oriented && !self.is_on_surface(point) {
-            return self.parts_around(point);
-        }
-        traverse::winding_number(self.clusters(), self.mesh(), point)
+        T::winding_number(self, point)
     }
 
     /// [`winding_number`](Self::winding_number) of each point, on this thread: `numbers[i]` is that
@@ -58,6 +52,17 @@ impl Scene {
     #[cfg(feature = "rayon")]
     pub fn par_winding_numbers(&self, points: &[[f64; 3]], numbers: &mut [f64]) {
         points::par_each(points, numbers, |point| self.winding_number(point));
+    }
+
+    /// What [`Precision`] compiles.
+    pub(super) fn find_winding_number(&self, point: [f64; 3]) -> f64 {
+        if !point.iter().all(|x| x.is_finite()) {
+            return f64::NAN;
+        }
+        if self.closure() == Closure::Oriented && !self.is_on_surface(point) {
+            return self.parts_around(point);
+        }
+        traverse::winding_number(self.clusters(), self.mesh(), point)
     }
 
     /// How many more parts a ray leaves than it enters.

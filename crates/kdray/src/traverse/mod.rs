@@ -13,6 +13,7 @@ mod naive;
 mod nearest;
 mod packet;
 mod trace;
+mod vicinity;
 mod visible;
 pub(crate) mod wide;
 mod winding;

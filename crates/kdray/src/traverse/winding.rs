@@ -1,5 +1,6 @@
 //! How often a mesh winds around a point (Jacobson et al. 2013), fast (Barill et al. 2018).
 
+use crate::geometry::Coordinate;
 use crate::layout::{Cluster, Clusters};
 use crate::primitives::{TriangleMesh, solid_angle};
 use glam::DVec3;
@@ -11,17 +12,21 @@ const FAR: f64 = 2.0;
 /// The generalised winding number of `mesh` around `point`: the sum of the solid angles of its
 /// triangles, as a share of the sphere. Clusters that are more than two radii away count by the
 /// first three terms of what they look like from afar.
-pub fn winding_number(clusters: &Clusters, mesh: &TriangleMesh, point: [f64; 3]) -> f64 {
-    let all = clusters.clusters();
+pub fn winding_number<T: Coordinate>(
+    clusters: &Clusters,
+    mesh: &TriangleMesh<T>,
+    point: [f64; 3],
+) -> f64 {
+    let (all, place_of_point) = (clusters.clusters(), clusters.place(point));
     let (mut sum, mut place) = (0.0, 0);
     while let Some(cluster) = all.get(place) {
-        if let Some(share) = share_from_afar(cluster, DVec3::from(point)) {
+        if let Some(share) = share_from_afar(cluster, place_of_point) {
             sum += share;
             place = cluster.next as usize;
         } else if cluster.is_cut() {
             place += 1;
         } else {
-            let corners = |&id: &u32| mesh.corners(id).map(|p| p.map(f64::from));
+            let corners = |&id: &u32| mesh.corners(id).map(|p| p.map(T::to_f64));
             let triangles = clusters.triangles(cluster).iter();
             sum += triangles.map(|id| solid_angle(point, corners(id))).sum::<f64>();
             place = cluster.next as usize;

@@ -1,5 +1,6 @@
 //! The 8-byte node.
 
+use crate::memory::Words;
 use bytemuck::{Pod, Zeroable};
 
 /// A split or a leaf in 8 bytes. The two low bits of `tag` are the axis of a split, or 3 for a
@@ -11,6 +12,8 @@ pub struct Node {
     payload: u32,
     tag: u32,
 }
+
+impl Words for Node {}
 
 /// What a node is.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,7 +3,7 @@
 #![allow(dead_code, reason = "no test file uses all of it")]
 
 use kdray::memory::{AlignedBytes, SharedBytes};
-use kdray::{BuildOptions, Scene, TriangleMesh};
+use kdray::{BuildOptions, Precision, Scene, TriangleMesh};
 use rand::{RngExt, SeedableRng};
 use std::convert::Infallible;
 use std::ops::Range;
@@ -19,7 +19,14 @@ pub(crate) fn soup(count: usize) -> TriangleMesh {
     TriangleMesh::from_soup(triangles).expect("finite corners")
 }
 
-pub(crate) fn saved(scene: &Scene) -> Vec<u8> {
+/// The same in f64, each number as it comes out.
+pub(crate) fn soup_in_f64(count: usize, vertex: impl Fn(f64) -> f64) -> TriangleMesh<f64> {
+    let mesh = soup(count);
+    let vertices = mesh.vertices().iter().map(|p| p.map(|x| vertex(x.into()))).collect();
+    TriangleMesh::new(vertices, mesh.triangles().to_vec()).expect("finite corners")
+}
+
+pub(crate) fn saved<T: Precision>(scene: &Scene<T>) -> Vec<u8> {
     let mut bytes = Vec::new();
     let written = scene.save(|piece| {
         bytes.extend_from_slice(piece);
@@ -56,7 +63,11 @@ impl Section {
         Self::Homes,
         Self::Above,
     ];
-    const ITEM_BYTES: [usize; 7] = [12, 12, 8, 4, 64, 32, 4];
+
+    /// How many bytes an item has, with coordinates of so many.
+    fn item_bytes(self, coordinate: usize) -> usize {
+        [3 * coordinate, 12, 8, 4, 64, 32, 4][self as usize]
+    }
 }
 
 /// A file whose checksums are right whatever is changed.
@@ -67,8 +78,17 @@ pub(crate) struct Forgery {
 
 impl Forgery {
     pub(crate) fn of(count: usize) -> Self {
-        let scene = Scene::build(soup(count), &BuildOptions::default()).expect("a small mesh");
+        Self::of_mesh(soup(count))
+    }
+
+    pub(crate) fn of_mesh<T: Precision>(mesh: TriangleMesh<T>) -> Self {
+        let scene = Scene::build(mesh, &BuildOptions::default()).expect("a small mesh");
         Self { bytes: saved(&scene) }
+    }
+
+    /// How many bytes a coordinate has.
+    fn coordinate(&self) -> usize {
+        u32::from_le_bytes(self.bytes[12..16].try_into().expect("four bytes")) as usize / 8
     }
 
     pub(crate) fn count(&self, section: Section) -> u64 {
@@ -87,7 +107,7 @@ impl Forgery {
         let mut range = 0..0;
         for other in &Section::ALL[..=section as usize] {
             let start = end.next_multiple_of(64);
-            end = start + self.count(*other) as usize * Section::ITEM_BYTES[*other as usize];
+            end = start + self.count(*other) as usize * other.item_bytes(self.coordinate());
             range = start..end;
         }
         range

@@ -1,7 +1,10 @@
 //! The nearest point, by the wide tree.
 
+use super::search::triangle;
+use crate::geometry::Coordinate;
 use crate::layout::{Link, STACK_SIZE, TriangleBlock, WideNode, WideTree};
-use crate::primitives::{ClosestPoint, closest_on_triangle};
+use crate::primitives::{ClosestPoint, TriangleMesh, closest_on_triangle};
+use crate::traverse::vicinity::Vicinity;
 use arrayvec::ArrayVec;
 
 /// Half the distance from 1 to the next f32.
@@ -12,14 +15,18 @@ const ROUNDING: f32 = f32::EPSILON / 2.0;
 const ERROR: f32 = 16.0 * ROUNDING;
 
 /// The nearest point of the triangles in a wide tree that is not empty; of several at the same
-/// distance, the one of the smallest primitive id. `None` if `point` is farther from zero than the
-/// tree's reach.
+/// distance, the one of the smallest primitive id. `None` if `point` is, in the tree, farther from zero
+/// than its reach. `vicinity` is that of the point.
 ///
-/// `slack` is how much smaller than the true distance a computed one may be. Distances from boxes, of
-/// nodes and around triangles, are reckoned in f32, and only leave out what is surely farther; those
-/// of points decide, and are computed in f64.
-pub(crate) fn closest_point(tree: &WideTree, point: [f64; 3], slack: f64) -> Option<ClosestPoint> {
-    let mut search = Search::new(tree, point, slack)?;
+/// Distances from boxes, of nodes and around triangles, are reckoned in f32, in the tree's coordinates, and
+/// only leave out what is surely farther; those of points decide, and are computed in f64, on the mesh.
+pub(crate) fn closest_point<T: Coordinate>(
+    tree: &WideTree,
+    mesh: &TriangleMesh<T>,
+    point: [f64; 3],
+    vicinity: Vicinity,
+) -> Option<ClosestPoint> {
+    let mut search = Search::new(tree, mesh, point, vicinity)?;
     let mut waiting = ArrayVec::<(f32, Link), STACK_SIZE>::new();
     waiting.push((0.0, Link::ROOT));
     while let Some((squared, link)) = waiting.pop() {
@@ -36,9 +43,10 @@ pub(crate) fn closest_point(tree: &WideTree, point: [f64; 3], slack: f64) -> Opt
 }
 
 /// A point, and what was found so far.
-struct Search {
+struct Search<'a, T: 'static> {
+    mesh: &'a TriangleMesh<T>,
     point: [f64; 3],
-    slack: f64,
+    vicinity: Vicinity,
     /// Between these the point surely is.
     low: [f32; 3],
     high: [f32; 3],
@@ -47,16 +55,22 @@ struct Search {
     limit: f32,
 }
 
-impl Search {
-    fn new(tree: &WideTree, point: [f64; 3], slack: f64) -> Option<Self> {
-        let reach = tree.reach();
-        if point.iter().any(|x| x.abs() > f64::from(reach)) {
+impl<'a, T: Coordinate> Search<'a, T> {
+    fn new(
+        tree: &WideTree,
+        mesh: &'a TriangleMesh<T>,
+        point: [f64; 3],
+        vicinity: Vicinity,
+    ) -> Option<Self> {
+        let (reach, in_tree) = (tree.reach(), vicinity.point);
+        if in_tree.iter().any(|x| x.abs() > f64::from(reach)) {
             return None;
         }
-        // The coordinate is rounded once, and once more with the margin.
+        // The coordinate is rounded once, and once more with the margin; in a block those of f64
+        // corners are, too.
         let margin = 4.0 * ROUNDING * reach;
-        let (low, high) = (point.map(|x| x as f32 - margin), point.map(|x| x as f32 + margin));
-        Some(Self { point, slack, low, high, nearest: None, limit: f32::MAX })
+        let (low, high) = (in_tree.map(|x| x as f32 - margin), in_tree.map(|x| x as f32 + margin));
+        Some(Self { mesh, point, vicinity, low, high, nearest: None, limit: f32::MAX })
     }
 
     /// Puts the children that may hold the nearest point on the stack, the nearest on top.
@@ -91,14 +105,14 @@ impl Search {
     }
 
     fn test(&mut self, block: &TriangleBlock, lane: usize) {
-        let corners = block.triangle(lane).map(|p| p.map(f64::from));
+        let corners = triangle(self.mesh, block, lane).map(|p| p.map(T::to_f64));
         // In a tree file that was not verified they may be anything.
         if !corners.as_flattened().iter().all(|x| x.is_finite()) {
             return;
         }
         let found = closest_on_triangle(self.point, corners, block.id(lane));
         if self.nearest.is_none_or(|nearest| found.precedes(&nearest)) {
-            let limit = found.distance + self.slack;
+            let limit = self.vicinity.limit(found.distance);
             self.limit = ((limit * limit) as f32 * (1.0 + ERROR)).min(f32::MAX);
             self.nearest = Some(found);
         }

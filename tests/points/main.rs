@@ -1,10 +1,17 @@
 //! Queries about points: against testing every triangle, and against rational arithmetic.
 
+mod cases;
+
+use cases::{
+    awkward_meshes, awkward_meshes_in_f64, closed_meshes, closed_meshes_in_f64, far_away,
+    of_many_digits,
+};
 use kdray::exact::side_of_plane;
 use kdray::primitives::{HitRule, solid_angle};
-use kdray::{BuildOptions, Closure, Hit, Ray, Scene, Side, Strategy, TriangleMesh};
+use kdray::{BuildOptions, Closure, Hit, Precision, Ray, Scene, Side, Strategy, TriangleMesh};
+use kdray_tests::Subject;
 use kdray_tests::closed::closed_part;
-use kdray_tests::meshes::{boxes, degenerate, grid, mesh, needles, soup, sphere, torus};
+use kdray_tests::meshes::{boxes, grid, mesh, mesh_in_f64, moved, soup, sphere, torus};
 use kdray_tests::oracle::{
     exact_distance_squared, exactly_contains, is_distance, is_exactly_visible,
 };
@@ -16,58 +23,24 @@ use rand::RngExt;
 use std::cmp::Ordering;
 
 /// Every way to build a tree, and the default for the kernels.
-fn scenes_of(mesh: &TriangleMesh) -> Vec<Scene> {
+fn scenes_of<T: Precision>(mesh: &TriangleMesh<T>) -> Vec<Scene<T>> {
     let strategies = Strategy::ALL.map(BuildOptions::for_strategy);
     let options = strategies.into_iter().chain([BuildOptions::default()]);
     options.map(|options| Scene::build(mesh.clone(), &options).expect("a small mesh")).collect()
 }
 
-fn scene(mesh: TriangleMesh) -> Scene {
+fn scene<T: Precision>(mesh: TriangleMesh<T>) -> Scene<T> {
     Scene::build(mesh, &BuildOptions::default()).expect("the mesh is valid")
-}
-
-fn awkward_meshes() -> Vec<(&'static str, TriangleMesh)> {
-    let far = soup(80, [500_000.0, 5_400_000.0, 300.0], 20.0, 4);
-    let huge = soup(40, [0.0; 3], 1e38, 5);
-    let tiny = soup(40, [0.0; 3], 1e-38, 6);
-    vec![
-        ("empty", mesh(Vec::new())),
-        ("soup", mesh(soup(120, [0.0; 3], 1.0, 3))),
-        ("far from zero", mesh(far)),
-        ("huge", mesh(huge)),
-        ("tiny", mesh(tiny)),
-        ("grid", mesh(grid(5, 3))),
-        ("boxes", mesh(boxes(2))),
-        ("needles", mesh(needles(60, 7))),
-        ("degenerate", mesh(degenerate(8))),
-        ("sphere", sphere(8)),
-        ("torus", torus(10, 7)),
-    ]
-}
-
-fn closed_meshes() -> Vec<(&'static str, TriangleMesh)> {
-    // Two tetrahedra that share an edge, so that four triangles meet there.
-    let [a, b] = [[0.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
-    let tetrahedron = |c: [f32; 3], d: [f32; 3]| [[a, b, c], [a, d, b], [a, c, d], [b, d, c]];
-    let hinged = [
-        tetrahedron([1.0, 0.0, 0.3], [0.7, 0.6, 0.1]),
-        tetrahedron([-1.0, 0.0, 0.3], [-0.7, -0.6, 0.1]),
-    ];
-    let mut nested = boxes(1);
-    nested.extend(boxes(1).into_iter().map(|t| t.map(|p| p.map(|x| 0.25 + 0.5 * x))));
-    vec![
-        ("sphere", sphere(7)),
-        ("torus", torus(9, 6)),
-        ("a box", mesh(boxes(1))),
-        ("boxes side by side", mesh(boxes(2))),
-        ("hinged", mesh(hinged.concat())),
-        ("nested", mesh(nested)),
-    ]
 }
 
 #[test]
 fn the_nearest_point_is_that_of_testing_every_triangle() {
-    for (name, mesh) in awkward_meshes() {
+    nearest_points_are_naive(awkward_meshes());
+    nearest_points_are_naive(awkward_meshes_in_f64());
+}
+
+fn nearest_points_are_naive<T: Precision>(meshes: Vec<(&str, TriangleMesh<T>)>) {
+    for (name, mesh) in meshes {
         let points = points(&mesh, 12, 1e14, 21);
         let scenes = scenes_of(&mesh);
         for &point in &points {
@@ -81,14 +54,19 @@ fn the_nearest_point_is_that_of_testing_every_triangle() {
 
 #[test]
 fn the_distance_is_that_of_rational_arithmetic() {
-    for (name, mesh) in awkward_meshes() {
+    distances_are_rational(awkward_meshes());
+    distances_are_rational(awkward_meshes_in_f64());
+}
+
+fn distances_are_rational<T: Precision>(meshes: Vec<(&str, TriangleMesh<T>)>) {
+    for (name, mesh) in meshes {
         let scene = scene(mesh.clone());
         for point in points(&mesh, 8, 1e6, 22) {
             let Some(found) = scene.closest_point(point) else { continue };
             let ids = 0..mesh.triangles().len() as u32;
             let exact = ids.map(|id| exact_distance_squared(point, &mesh.corners(id))).min();
             let exact = exact.expect("the mesh is not empty");
-            let error = 2.0_f64.powi(-46) * farthest_corner(&mesh, point);
+            let error = 2.0_f64.powi(-46) * farthest_corner(&mesh, point) + f64::from_bits(1);
             assert!(is_distance(found.distance, error, &exact), "{name} {point:?}: {found:?}");
             let is_zero = exact == BigRational::from_integer(0.into());
             assert_eq!(found.distance == 0.0, is_zero, "{name} {point:?}: {found:?}");
@@ -97,22 +75,28 @@ fn the_distance_is_that_of_rational_arithmetic() {
     }
 }
 
-fn farthest_corner(mesh: &TriangleMesh, point: [f64; 3]) -> f64 {
-    let distance = |p: &[f32; 3]| {
-        let way: [f64; 3] = std::array::from_fn(|k| f64::from(p[k]) - point[k]);
-        way.iter().map(|x| x * x).sum::<f64>().sqrt()
+fn farthest_corner<T: Precision>(mesh: &TriangleMesh<T>, point: [f64; 3]) -> f64 {
+    let distance = |p: &[T; 3]| {
+        let [x, y, z] = std::array::from_fn(|k| p[k].to_f64() - point[k]);
+        x.hypot(y).hypot(z)
     };
     mesh.vertices().iter().map(distance).fold(0.0, f64::max)
 }
 
 /// The weights are those of the point that was found.
-fn assert_weights(mesh: &TriangleMesh, point: [f64; 3], found: &kdray::ClosestPoint) {
+fn assert_weights<T: Precision>(
+    mesh: &TriangleMesh<T>,
+    point: [f64; 3],
+    found: &kdray::ClosestPoint,
+) {
     let [a, b, c] = corners(mesh, found.primitive_id);
     let (u, v) = (found.u, found.v);
     assert!(u >= 0.0 && v >= 0.0 && u + v <= 1.0 + f64::EPSILON, "{point:?}: {found:?}");
     // Both places are rounded to f64.
     let largest = [a, b, c].iter().flatten().fold(0.0_f64, |most, x| most.max(x.abs()));
-    let error = 2.0_f64.powi(-46) * farthest_corner(mesh, point) + 2.0_f64.powi(-50) * largest;
+    let error = 2.0_f64.powi(-46) * farthest_corner(mesh, point)
+        + 2.0_f64.powi(-50) * largest
+        + f64::MIN_POSITIVE * f64::EPSILON;
     for k in 0..3 {
         let place = a[k] + u * (b[k] - a[k]) + v * (c[k] - a[k]);
         assert!((place - found.point[k]).abs() <= error, "{point:?}: {found:?}");
@@ -121,24 +105,35 @@ fn assert_weights(mesh: &TriangleMesh, point: [f64; 3], found: &kdray::ClosestPo
 
 #[test]
 fn closed_meshes_contain_what_rational_arithmetic_says() {
-    for (name, mesh) in closed_meshes() {
+    contain_what_is_inside(closed_meshes(), 15);
+    contain_what_is_inside(closed_meshes_in_f64(), 8);
+}
+
+fn contain_what_is_inside<T: Precision>(meshes: Vec<(&str, TriangleMesh<T>)>, each: usize) {
+    for (name, mesh) in meshes {
         let scenes = scenes_of(&mesh);
         assert!(scenes[0].closure().is_closed(), "{name}");
         let (mut inside, mut outside) = (0, 0);
-        for point in points(&mesh, 15, 1e14, 31) {
+        for point in points(&mesh, each, 1e14, 31) {
             let expected = exactly_contains(&mesh, point);
             for scene in &scenes {
                 assert_eq!(scene.contains(point), expected, "{name} {point:?}");
             }
             *(if expected { &mut inside } else { &mut outside }) += 1;
         }
-        assert!(inside > 50 && outside > 50, "{name}: {inside} inside, {outside} outside");
+        let enough = 3 * each;
+        assert!(inside > enough && outside > enough, "{name}: {inside} inside, {outside} outside");
     }
 }
 
 #[test]
 fn signed_distances_are_negative_inside() {
-    for (name, mesh) in closed_meshes() {
+    signs_are_those_of_the_inside(closed_meshes());
+    signs_are_those_of_the_inside(closed_meshes_in_f64());
+}
+
+fn signs_are_those_of_the_inside<T: Precision>(meshes: Vec<(&str, TriangleMesh<T>)>) {
+    for (name, mesh) in meshes {
         let scene = scene(mesh.clone());
         for point in points(&mesh, 10, 1e6, 32) {
             let distance = scene.closest_point(point).expect("the mesh is not empty").distance;
@@ -158,11 +153,22 @@ fn open_meshes_wind_as_the_sum_over_their_triangles() {
     let kept = open.triangles()[300..].to_vec();
     open = TriangleMesh::new(open.vertices().to_vec(), kept).expect("parts are valid");
     let soup = mesh(soup(400, [0.0; 3], 1.0, 3));
-    for (name, mesh) in [("sphere", open), ("soup", soup), ("grid", mesh(grid(20, 1)))] {
+    let all = [("sphere", open), ("soup", soup), ("grid", mesh(grid(20, 1)))];
+    winds_as_the_sum(&all);
+    let of_many_digits = |(name, mesh): (_, TriangleMesh)| (name, moved(&mesh, of_many_digits));
+    winds_as_the_sum(&all.clone().map(of_many_digits));
+    winds_as_the_sum(&all.clone().map(|(name, mesh)| (name, moved(&mesh, far_away))));
+    let scaled = |by: f64| [("soup", moved(&all[1].1, |p| p.map(|x| x * by)))];
+    winds_as_the_sum(&scaled(1e290));
+    winds_as_the_sum(&scaled(1e-300));
+}
+
+fn winds_as_the_sum<T: Precision>(meshes: &[(&str, TriangleMesh<T>)]) {
+    for (name, mesh) in meshes {
         let scene = scene(mesh.clone());
         assert_eq!(scene.closure(), Closure::Open, "{name}");
-        for point in points(&mesh, 20, 1e6, 41) {
-            let (found, sum) = (scene.winding_number(point), naive_winding_number(&mesh, point));
+        for point in points(mesh, 20, 1e6, 41) {
+            let (found, sum) = (scene.winding_number(point), naive_winding_number(mesh, point));
             assert!((found - sum).abs() < WINDING_ERROR, "{name} {point:?}: {found} {sum}");
         }
     }
@@ -175,12 +181,17 @@ const WINDING_ERROR: f64 = 0.01;
 fn the_sides_of_an_open_mesh_are_told_apart_one_step_off_its_surface() {
     let mut lid = sphere(20);
     lid = TriangleMesh::new(lid.vertices().to_vec(), lid.triangles()[..700].to_vec()).unwrap();
+    sides_are_told_apart(&moved(&lid, far_away));
+    sides_are_told_apart(&lid);
+}
+
+fn sides_are_told_apart<T: Precision>(lid: &TriangleMesh<T>) {
     let scene = scene(lid.clone());
     assert_eq!(scene.closure(), Closure::Open);
     let (mut random, mut seen) = (random(42), [0; 3]);
     for _ in 0..100 {
         let id = random.random_range(0..400);
-        let [a, b, c] = corners(&lid, id);
+        let [a, b, c] = corners(lid, id);
         let on: [f64; 3] = std::array::from_fn(|k| 0.25 * a[k] + 0.25 * b[k] + 0.5 * c[k]);
         for point in beside(&on).into_iter().chain([on]) {
             let side = side_of_plane(point, [a, b, c]);
@@ -211,7 +222,12 @@ fn oriented_meshes_wind_a_whole_number_of_times() {
 
 #[test]
 fn bad_points_have_documented_answers() {
-    let scene = scene(sphere(5));
+    bad_points_are_answered(sphere(5));
+    bad_points_are_answered(moved(&sphere(5), of_many_digits));
+}
+
+fn bad_points_are_answered<T: Precision>(round: TriangleMesh<T>) {
+    let scene = scene(round);
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         let point = [0.0, bad, 0.0];
         assert!(!scene.contains(point) && scene.winding_number(point).is_nan());
@@ -228,7 +244,7 @@ fn bad_points_have_documented_answers() {
     for (u, v) in [(f64::NAN, 0.0), (-0.5, 0.5), (0.7, 0.7), (f64::INFINITY, 0.0)] {
         assert_eq!(scene.thickness(0, u, v, Side::Front), None, "{u} {v}");
     }
-    let empty = self::scene(mesh(Vec::new()));
+    let empty = self::scene(TriangleMesh::<T>::default());
     assert!(!empty.contains([0.0; 3]) && empty.closest_point([0.0; 3]).is_none());
     assert_eq!(empty.winding_number([0.0; 3]), 0.0);
     assert!(empty.visible([0.0; 3], [1.0; 3]));
@@ -236,17 +252,25 @@ fn bad_points_have_documented_answers() {
 
 #[test]
 fn points_see_each_other_where_rational_arithmetic_says_so() {
+    sights_are_rational(awkward_meshes());
+    sights_are_rational(awkward_meshes_in_f64());
+}
+
+fn sights_are_rational<T: Precision>(meshes: Vec<(&str, TriangleMesh<T>)>) {
     let (mut seen, mut hidden) = (0, 0);
-    for (name, mesh) in awkward_meshes() {
-        if ["empty", "huge", "tiny"].contains(&name) {
+    for (name, mesh) in meshes {
+        if T::FITS_TREE && ["empty", "huge", "tiny"].contains(&name) {
             continue;
         }
         let scene = scene(mesh.clone());
         let mut archer = Archer::new(&mesh, 61);
         for ray in archer.all_kinds(8, 10.0) {
             // On a grid fine enough to meet surfaces, and coarse enough for exact differences.
-            let on_grid = |p: [f64; 3]| p.map(|x| f64::from(x as f32));
+            let on_grid = |p: [f64; 3]| p.map(|x| mesh.rounded(x));
             let (from, to) = (on_grid(ray.origin), on_grid(ray.at(1.0)));
+            if !from.iter().chain(&to).all(|x| x.is_finite()) {
+                continue;
+            }
             let exact = |x: f64| BigRational::from_float(x).expect("it is finite");
             let is_exact = |k: usize| exact(to[k]) - exact(from[k]) == exact(to[k] - from[k]);
             if !(0..3).all(is_exact) || from == to {
@@ -329,12 +353,20 @@ fn a_box_is_as_thick_as_it_is_long() {
 fn neighbours_at_an_edge_or_a_corner_are_not_met_at_the_start() {
     let round = sphere(20);
     let moved = round.vertices().iter().map(|p| p.map(|x| 0.1 + 3.0 * x)).collect();
-    let scene = scene(TriangleMesh::new(moved, round.triangles().to_vec()).unwrap());
+    thick_at_the_rims(&TriangleMesh::new(moved, round.triangles().to_vec()).unwrap(), (1.0, 7));
+    let scaled = |by: f64| move |p: [f64; 3]| p.map(|x| (0.1 + 3.0 * x) * by);
+    for size in [1e-300, 1.0, 1e290] {
+        thick_at_the_rims(&self::moved(&round, scaled(size)), (size, 97));
+    }
+}
+
+fn thick_at_the_rims<T: Precision>(round: &TriangleMesh<T>, (size, step): (f64, usize)) {
+    let scene = scene(round.clone());
     let places = [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (0.3, 0.0), (0.0, 0.6), (0.3, 0.7)];
-    for id in (0..round.triangles().len() as u32).step_by(7) {
+    for id in (0..round.triangles().len() as u32).step_by(step) {
         for (u, v) in places {
             let found = scene.thickness(id, u, v, Side::Front).expect("a sphere is closed");
-            assert!((5.5..6.1).contains(&found), "{id} {u} {v}: {found}");
+            assert!((5.5..6.1).contains(&(found / size)), "{id} {u} {v}: {found}");
             assert_eq!(scene.thickness(id, u, v, Side::Back), None, "{id} {u} {v}");
         }
     }
@@ -356,32 +388,69 @@ fn a_hit_and_a_nearest_point_tell_where_to_measure() {
 fn many_points_are_answered_like_each_alone_on_any_number_of_threads() {
     let open = mesh(soup(300, [0.0; 3], 1.0, 9));
     for mesh in [torus(12, 8), open] {
-        let scene = scene(mesh.clone());
-        let points = points(&mesh, 20, 100.0, 81);
-        let alone: Vec<_> = points.iter().map(|&p| scene.closest_point(p)).collect();
-        let inside: Vec<_> = points.iter().map(|&p| scene.contains(p)).collect();
-        let signed: Vec<_> = points.iter().map(|&p| scene.signed_distance(p)).collect();
-        let winding: Vec<_> = points.iter().map(|&p| scene.winding_number(p)).collect();
-        for threads in [1, 3] {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            let count = points.len();
-            let (mut a, mut b) = (vec![None; count], vec![false; count]);
-            let (mut c, mut d) = (vec![None; count], vec![0.0; count]);
-            pool.install(|| {
-                scene.par_closest_points(&points, &mut a);
-                scene.par_contains_each(&points, &mut b);
-                scene.par_signed_distances(&points, &mut c);
-                scene.par_winding_numbers(&points, &mut d);
-            });
-            assert!(a == alone && b == inside && c == signed && d == winding, "{threads}");
+        many_are_like_each(&moved(&mesh, far_away));
+        many_are_like_each(&mesh);
+    }
+}
+
+fn many_are_like_each<T: Precision>(mesh: &TriangleMesh<T>) {
+    let scene = scene(mesh.clone());
+    let points = points(mesh, 20, 100.0, 81);
+    let alone: Vec<_> = points.iter().map(|&p| scene.closest_point(p)).collect();
+    let inside: Vec<_> = points.iter().map(|&p| scene.contains(p)).collect();
+    let signed: Vec<_> = points.iter().map(|&p| scene.signed_distance(p)).collect();
+    let winding: Vec<_> = points.iter().map(|&p| scene.winding_number(p)).collect();
+    for threads in [1, 3] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+        let count = points.len();
+        let (mut a, mut b) = (vec![None; count], vec![false; count]);
+        let (mut c, mut d) = (vec![None; count], vec![0.0; count]);
+        pool.install(|| {
+            scene.par_closest_points(&points, &mut a);
+            scene.par_contains_each(&points, &mut b);
+            scene.par_signed_distances(&points, &mut c);
+            scene.par_winding_numbers(&points, &mut d);
+        });
+        assert!(a == alone && b == inside && c == signed && d == winding, "{threads}");
+    }
+    let (mut a, mut b) = (vec![None; points.len()], vec![false; points.len()]);
+    let (mut c, mut d) = (vec![None; points.len()], vec![0.0; points.len()]);
+    scene.closest_points(&points, &mut a);
+    scene.contains_each(&points, &mut b);
+    scene.signed_distances(&points, &mut c);
+    scene.winding_numbers(&points, &mut d);
+    assert!(a == alone && b == inside && c == signed && d == winding);
+}
+
+/// All that a scene says of points, as bits.
+fn answers<T: Precision>(scene: &Scene<T>, points: &[[f64; 3]]) -> Vec<[u64; 8]> {
+    let answer = |(i, &point): (usize, &[f64; 3])| {
+        let near = scene.closest_point(point).expect("there are triangles");
+        let thickness = scene.thickness(near.primitive_id, near.u, near.v, Side::Front);
+        [
+            near.distance.to_bits(),
+            near.u.to_bits(),
+            near.v.to_bits(),
+            u64::from(near.primitive_id),
+            scene.signed_distance(point).map_or(0, f64::to_bits),
+            scene.winding_number(point).to_bits(),
+            thickness.map_or(0, f64::to_bits),
+            u64::from(scene.contains(point)) + 2 * u64::from(scene.visible(point, points[i / 2])),
+        ]
+    };
+    points.iter().enumerate().map(answer).collect()
+}
+
+#[test]
+fn meshes_of_f32_numbers_answer_alike_in_f64() {
+    for (name, mesh) in awkward_meshes().into_iter().chain(closed_meshes()) {
+        if mesh.triangles().is_empty() {
+            continue;
         }
-        let (mut a, mut b) = (vec![None; points.len()], vec![false; points.len()]);
-        let (mut c, mut d) = (vec![None; points.len()], vec![0.0; points.len()]);
-        scene.closest_points(&points, &mut a);
-        scene.contains_each(&points, &mut b);
-        scene.signed_distances(&points, &mut c);
-        scene.winding_numbers(&points, &mut d);
-        assert!(a == alone && b == inside && c == signed && d == winding);
+        let points = points(&mesh, 8, 1e14, 95);
+        let in_f64 = scene(mesh_in_f64(&mesh));
+        assert_eq!(in_f64.closure(), scene(mesh.clone()).closure(), "{name}");
+        assert_eq!(answers(&in_f64, &points), answers(&scene(mesh), &points), "{name}");
     }
 }
 
