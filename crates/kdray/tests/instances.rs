@@ -3,7 +3,9 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use kdray::query::{InstanceError, InstancedSceneError};
-use kdray::{BuildOptions, Hit, Instance, InstanceHit, InstancedScene, Ray, Scene, TriangleMesh};
+use kdray::{
+    BuildOptions, Hit, Instance, InstanceHit, InstancedScene, Precision, Ray, Scene, TriangleMesh,
+};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
@@ -24,7 +26,17 @@ fn shards(count: u32, random: &mut impl Rng) -> TriangleMesh {
     TriangleMesh::new(vertices, triangles.collect()).unwrap()
 }
 
-fn scene(mesh: TriangleMesh) -> Scene {
+/// The mesh in another precision, moved.
+fn cast<T: Precision>(mesh: &TriangleMesh, offset: [f64; 3]) -> TriangleMesh<T> {
+    let place = |p: &[f32; 3]| [0, 1, 2].map(|k| T::from_f64(f64::from(p[k]) + offset[k]));
+    let vertices = mesh.vertices().iter().map(place).collect();
+    TriangleMesh::new(vertices, mesh.triangles().to_vec()).unwrap()
+}
+
+/// Where f32 would round: a place in a national grid.
+const FAR: [f64; 3] = [500_000.0, 5_400_000.0, 128.0];
+
+fn scene<T: Precision>(mesh: TriangleMesh<T>) -> Scene<T> {
     Scene::build(mesh, &BuildOptions::default()).unwrap()
 }
 
@@ -41,11 +53,11 @@ fn exact_matrix(random: &mut impl Rng) -> [[f64; 4]; 3] {
 }
 
 /// The mesh as the matrix places it.
-fn placed(mesh: &TriangleMesh, rows: &[[f64; 4]; 3]) -> Vec<[f32; 3]> {
-    let place = |p: &[f32; 3]| {
+fn placed<T: Precision>(mesh: &TriangleMesh<T>, rows: &[[f64; 4]; 3]) -> Vec<[T; 3]> {
+    let place = |p: &[T; 3]| {
         rows.map(|[x, y, z, w]| {
-            let [px, py, pz] = p.map(f64::from);
-            (x * px + y * py + z * pz + w) as f32
+            let [px, py, pz] = p.map(T::to_f64);
+            T::from_f64(x * px + y * py + z * pz + w)
         })
     };
     mesh.vertices().iter().map(place).collect()
@@ -70,10 +82,19 @@ fn are_close(a: &[f64], b: &[f64]) -> bool {
 
 #[test]
 fn copies_are_hit_as_their_triangles_in_one_mesh() {
+    copies_are_triangles::<f32>([0.0; 3], 4000);
+    copies_are_triangles::<f64>(FAR, 1000);
+}
+
+fn copies_are_triangles<T: Precision>(offset: [f64; 3], rays: usize) {
     let mut random = Pcg64Mcg::seed_from_u64(1);
-    let geometries = [cube(), shards(50, &mut random)];
-    let instances: Vec<Instance> =
-        (0..40).map(|i| Instance::of(i % 2).placed(exact_matrix(&mut random))).collect();
+    let geometries = [cube(), shards(50, &mut random)].map(|mesh| cast::<T>(&mesh, [0.0; 3]));
+    let mut matrix = || {
+        let mut rows = exact_matrix(&mut random);
+        rows.iter_mut().zip(offset).for_each(|(row, offset)| row[3] += offset);
+        rows
+    };
+    let instances: Vec<Instance> = (0..40).map(|i| Instance::of(i % 2).placed(matrix())).collect();
     let (mut vertices, mut triangles, mut firsts) = (Vec::new(), Vec::new(), Vec::new());
     for instance in &instances {
         let mesh = &geometries[instance.geometry_id as usize];
@@ -86,11 +107,11 @@ fn copies_are_hit_as_their_triangles_in_one_mesh() {
     let copies = InstancedScene::build(geometries.map(scene).to_vec(), instances).unwrap();
 
     let mut hits = 0;
-    for i in 0..4000 {
+    for i in 0..rays {
         let mut ray = random_ray(&mut random, 9.0);
         // Carried without rounding; every second one along the grid, into faces, edges and vertices.
         let steps = if i % 2 == 0 { 1.0 } else { 1024.0 };
-        ray.origin = ray.origin.map(|x| (x * steps).round() / steps);
+        ray.origin = [0, 1, 2].map(|k| (ray.origin[k] * steps).round() / steps + offset[k]);
         ray.direction = ray.direction.map(|x| (x / 6.0 * steps).round() / steps);
         if ray.check().is_err() {
             continue;
@@ -107,7 +128,7 @@ fn copies_are_hit_as_their_triangles_in_one_mesh() {
         assert_eq!(ids, expected, "{ray:?}");
         assert!(are_close(&t, &expected_t), "{ray:?}");
     }
-    assert!(hits > 1000, "{hits}");
+    assert!(hits > rays / 4, "{hits}");
 }
 
 /// The ray in the space of an instance.
@@ -123,7 +144,7 @@ fn carried(instance: &Instance, ray: &Ray) -> Ray {
 }
 
 /// What each geometry says of the carried ray, whether or not the ray meets any box.
-fn naive(scene: &InstancedScene, ray: &Ray) -> Vec<InstanceHit> {
+fn naive<T: Precision>(scene: &InstancedScene<T>, ray: &Ray) -> Vec<InstanceHit> {
     let alone = |(index, instance): (usize, &Instance)| {
         let geometry = &scene.geometries()[instance.geometry_id as usize];
         let found =
@@ -137,8 +158,16 @@ fn naive(scene: &InstancedScene, ray: &Ray) -> Vec<InstanceHit> {
 
 #[test]
 fn any_matrix_gives_what_each_copy_gives_alone() {
+    copies_are_alike::<f32>([0.0; 3], [0.0; 3], 2000);
+    copies_are_alike::<f64>([0.0; 3], FAR, 300);
+    copies_are_alike::<f64>(FAR, [0.0; 3], 300);
+    copies_are_alike::<f64>(FAR, FAR, 300);
+}
+
+/// Copies of geometries around one place, around another.
+fn copies_are_alike<T: Precision>(from: [f64; 3], to: [f64; 3], rays: usize) {
     let mut random = Pcg64Mcg::seed_from_u64(2);
-    let geometries = vec![scene(cube()), scene(shards(30, &mut random))];
+    let geometries = [cube(), shards(30, &mut random)].map(|mesh| scene(cast::<T>(&mesh, from)));
     let instances: Vec<Instance> = (0..40)
         .map(|i| {
             // Every second one is squeezed towards a line, as much as is not refused.
@@ -147,14 +176,17 @@ fn any_matrix_gives_what_each_copy_gives_alone() {
             let row = |k: usize| {
                 let along: [f64; 3] = axis.map(|a| 2.0 * a * axis[k]);
                 let [x, y, z] = along.map(|a| a + squeezed * random.random_range(-1.0..1.0));
-                [x, y, z, random.random_range(-2.0..2.0)]
+                let there = x * from[0] + y * from[1] + z * from[2];
+                [x, y, z, random.random_range(-2.0..2.0) + to[k] - there]
             };
             Instance::of(i % 2).placed([0, 1, 2].map(row))
         })
         .collect();
-    let scene = InstancedScene::build(geometries, instances).unwrap();
-    for round in 0..2000 {
+    let scene = InstancedScene::build(geometries.to_vec(), instances).unwrap();
+    let (mut asked, mut answers) = (Vec::new(), Vec::new());
+    for round in 0..rays {
         let mut ray = random_ray(&mut random, 8.0);
+        ray.origin = [0, 1, 2].map(|k| ray.origin[k] + to[k]);
         if round % 4 == 0 {
             let back = ray.direction.map(|d| 1e3 * d);
             ray.origin = [0, 1, 2].map(|k| ray.origin[k] - back[k]);
@@ -163,6 +195,55 @@ fn any_matrix_gives_what_each_copy_gives_alone() {
         assert_eq!(scene.all_touched(&ray).collect::<Vec<_>>(), expected);
         assert_eq!(scene.closest_hit(&ray).as_ref(), expected.first());
         assert_eq!(scene.any_hit(&ray), !expected.is_empty());
+        let (crossed, mut at_once) = (scene.all_hits(&ray).collect::<Vec<_>>(), Vec::new());
+        scene.all_hits_into(&ray, &mut at_once);
+        assert_eq!((scene.count(&ray), &at_once), (crossed.len(), &crossed));
+        asked.push(ray);
+        answers.push(expected.first().copied());
+    }
+    assert_batches(&scene, &asked, &answers);
+}
+
+/// Many rays are answered like each alone.
+fn assert_batches<T: Precision>(
+    scene: &InstancedScene<T>,
+    rays: &[Ray],
+    answers: &[Option<InstanceHit>],
+) {
+    let (mut hits, mut found) = (vec![None; rays.len()], vec![false; rays.len()]);
+    scene.closest_hits(rays, &mut hits);
+    scene.any_hits(rays, &mut found);
+    assert_eq!(hits, answers);
+    assert!(found.iter().zip(answers).all(|(found, answer)| *found == answer.is_some()));
+    #[cfg(feature = "rayon")]
+    {
+        let (mut par_hits, mut par_found) = (vec![None; rays.len()], vec![false; rays.len()]);
+        scene.par_closest_hits(rays, &mut par_hits);
+        scene.par_any_hits(rays, &mut par_found);
+        assert_eq!((par_hits, par_found), (hits, found));
+    }
+}
+
+#[test]
+fn an_instance_where_it_is_is_met_as_its_geometry_at_any_size() {
+    let mut random = Pcg64Mcg::seed_from_u64(5);
+    let shards = shards(60, &mut random);
+    for scale in [1e-290, 1e-3, 1e290] {
+        let vertices = shards.vertices().iter().map(|p| p.map(|x| f64::from(x) * scale / 3.0));
+        let mesh = TriangleMesh::new(vertices.collect(), shards.triangles().to_vec()).unwrap();
+        let alone = scene(mesh);
+        let there = InstancedScene::build(vec![alone.clone()], vec![Instance::of(0)]).unwrap();
+        let mut hits = 0;
+        for _ in 0..100 {
+            let ray = random_ray(&mut random, 0.5);
+            let (origin, direction) = (ray.origin.map(|x| x * scale), ray.direction);
+            let ray = Ray::new(origin, direction.map(|x| x * scale));
+            let expected = alone.closest_hit(&ray);
+            hits += usize::from(expected.is_some());
+            assert_eq!(there.closest_hit(&ray).map(|found| found.hit), expected, "{scale}");
+            assert_eq!(there.count(&ray), alone.count(&ray), "{scale}");
+        }
+        assert!(hits > 20, "{scale}: {hits}");
     }
 }
 
@@ -260,7 +341,7 @@ fn what_cannot_be_placed_is_refused() {
 
 #[test]
 fn nothing_is_hit_where_nothing_is() {
-    let empty = scene(TriangleMesh::default());
+    let empty = scene(TriangleMesh::<f32>::default());
     let ray = Ray::new([0.0; 3], [1.0, 0.0, 0.0]);
     for instances in [vec![], vec![Instance::of(0)]] {
         let scene = InstancedScene::build(vec![empty.clone()], instances).unwrap();

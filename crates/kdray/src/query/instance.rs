@@ -1,6 +1,6 @@
 //! Placed copies of scenes.
 
-use crate::geometry::Aabb;
+use crate::geometry::{Aabb, Coordinate, TreeSpace};
 use crate::primitives::Hit;
 use glam::{DAffine3, DMat3, DVec3};
 use std::cmp::Ordering;
@@ -69,8 +69,10 @@ pub enum InstanceError {
     /// not the identity to 2^-26.
     #[error("the matrix of instance {0} cannot be inverted; give one that flattens nothing")]
     Singular(usize),
-    /// A copy lies beyond the largest f32.
-    #[error("instance {0} lies beyond the range of f32; place it nearer to the origin")]
+    /// A copy lies beyond the largest number: for geometries in f32 the largest f32.
+    #[error(
+        "instance {0} lies beyond the range of its geometry's numbers; place it nearer to the origin"
+    )]
     OutOfRange(usize),
     /// There are 2^30 instances or more.
     #[error("there are {0} instances, but at most 1073741823 fit one tree; make fewer")]
@@ -102,8 +104,8 @@ impl InstanceHit {
     }
 }
 
-/// By how much of its largest coordinate the box of an instance is widened: far more than what an inverse
-/// that is off by [`INVERSE_ERROR`] may move a hit by, see [`InstancedScene`].
+/// By how much of its largest coordinate the box of an instance is widened, for what carrying rounds of rays
+/// that come from far away, see [`InstancedScene`]. In f64, of the scene's size.
 ///
 /// [`InstancedScene`]: super::InstancedScene
 const WIDENED: f64 = 1.0 / (1 << 20) as f64;
@@ -111,22 +113,65 @@ const WIDENED: f64 = 1.0 / (1 << 20) as f64;
 /// By how much the matrix times its inverse may differ from the identity.
 const INVERSE_ERROR: f64 = 1.0 / (1 << 26) as f64;
 
-/// The way back from the world into the space of the instance of that index, and its box in the world.
-/// `bounds` is that of its geometry.
-pub(super) fn place(
-    index: usize,
-    instance: &Instance,
-    bounds: &Aabb<3>,
-) -> Result<(DAffine3, Aabb<3>), InstanceError> {
-    let to_world = affine(&instance.to_world);
-    let to_object = to_world.inverse();
-    let error = norm(&(to_world.matrix3 * to_object.matrix3 - DMat3::IDENTITY));
-    // A NaN is refused as well.
-    if !(error <= INVERSE_ERROR && to_world.is_finite() && to_object.is_finite()) {
-        return Err(InstanceError::Singular(index));
+/// A bound for what carrying a point there and back rounds, in units of its coordinates times how unevenly the
+/// matrix stretches: some ten roundings.
+const CARRYING_ERROR: f64 = 32.0 * f64::EPSILON;
+
+/// Where an instance is.
+pub(super) struct Place {
+    /// The way back from the world into its space.
+    pub(super) to_object: DAffine3,
+    /// The corners of a box in the world that holds it.
+    pub(super) low: DVec3,
+    pub(super) high: DVec3,
+    /// How far from there it may be for rays, which are carried by an inverse that is rounded.
+    error: f64,
+}
+
+impl Place {
+    /// That of the instance of that index; `corners` are those of the box of its geometry, if there is
+    /// anything in it. A geometry without triangles is a point.
+    pub(super) fn of(
+        index: usize,
+        instance: &Instance,
+        corners: Option<[[f64; 3]; 2]>,
+    ) -> Result<Self, InstanceError> {
+        let to_world = affine(&instance.to_world);
+        let to_object = to_world.inverse();
+        let inverse_error = norm(&(to_world.matrix3 * to_object.matrix3 - DMat3::IDENTITY));
+        // A NaN is refused as well.
+        if !(inverse_error <= INVERSE_ERROR && to_world.is_finite() && to_object.is_finite()) {
+            return Err(InstanceError::Singular(index));
+        }
+        let corners = corners.unwrap_or_default();
+        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        for corner in 0..8 {
+            let corner = DVec3::from([0, 1, 2].map(|axis| corners[corner >> axis & 1][axis]));
+            let corner = to_world.transform_point3(corner);
+            (low, high) = (low.min(corner), high.max(corner));
+        }
+        let uneven = norm(&to_world.matrix3) * norm(&to_object.matrix3);
+        let farthest = low.abs().max(high.abs()) + to_world.translation.abs();
+        let error = (inverse_error + CARRYING_ERROR * uneven) * farthest.element_sum();
+        if (low - error).is_finite() && (high + error).is_finite() {
+            Ok(Self { to_object, low, high, error })
+        } else {
+            Err(InstanceError::OutOfRange(index))
+        }
     }
-    let bounds = world_bounds(&to_world, bounds).ok_or(InstanceError::OutOfRange(index))?;
-    Ok((to_object, bounds))
+
+    /// A box in the tree over all instances that rays pass through which hit this one; `None` if f32
+    /// cannot say it.
+    pub(super) fn bounds<T: Coordinate>(&self, space: &TreeSpace) -> Option<Aabb<3>> {
+        let [low, high] = [self.low, self.high].map(|p| DVec3::from(space.point(p.into())));
+        let farthest = low.abs().max(high.abs()).max_element();
+        let size = if T::FITS_TREE { farthest } else { TreeSpace::FARTHEST.into() };
+        let wider = WIDENED * size + self.error * space.scale();
+        let min = (low - wider).to_array().map(|x| (x as f32).next_down());
+        let max = (high + wider).to_array().map(|x| (x as f32).next_up());
+        let is_finite = min.iter().chain(&max).all(|x| x.is_finite());
+        is_finite.then_some(Aabb { min, max })
+    }
 }
 
 /// The same matrix, by columns.
@@ -139,22 +184,4 @@ fn affine(rows: &[[f64; 4]; 3]) -> DAffine3 {
 fn norm(matrix: &DMat3) -> f64 {
     let [x, y, z] = [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(DVec3::length_squared);
     (x + y + z).sqrt()
-}
-
-/// A box that holds what is in `bounds`, once it is placed; `None` if f32 cannot say it. A geometry
-/// without triangles has the box of a point.
-fn world_bounds(to_world: &DAffine3, bounds: &Aabb<3>) -> Option<Aabb<3>> {
-    let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    for corner in 0..8 {
-        let choose = |axis: usize| if corner >> axis & 1 == 0 { bounds.min } else { bounds.max };
-        let corner = DVec3::from([0, 1, 2].map(|axis| f64::from(choose(axis)[axis])));
-        let corner = if bounds.is_empty() { DVec3::ZERO } else { corner };
-        let corner = to_world.transform_point3(corner);
-        (low, high) = (low.min(corner), high.max(corner));
-    }
-    let reach = low.abs().max(high.abs()).max_element() * WIDENED;
-    let min = (low - reach).to_array().map(|x| (x as f32).next_down());
-    let max = (high + reach).to_array().map(|x| (x as f32).next_up());
-    let is_finite = min.iter().chain(&max).all(|x| x.is_finite());
-    is_finite.then_some(Aabb { min, max })
 }

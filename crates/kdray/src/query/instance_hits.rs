@@ -1,6 +1,6 @@
 //! All hits on instances, in order, as they are asked for.
 
-use super::{InstanceHit, InstancedScene};
+use super::{InstanceHit, InstancedScene, Precision};
 use crate::geometry::Ray;
 use crate::primitives::{HitRule, TriangleMesh};
 use crate::traverse::{AllHits, LeafWalk};
@@ -12,27 +12,27 @@ use std::iter::FusedIterator;
 /// Lazy: instances are asked only when the walk comes to them, and each only for its next hit.
 #[derive(Debug)]
 #[must_use = "hits are found only as they are asked for"]
-pub struct InstanceHits<'a> {
-    scene: &'a InstancedScene,
+pub struct InstanceHits<'a, T: 'static = f32> {
+    scene: &'a InstancedScene<T>,
     ray: Ray,
     rule: HitRule,
     walk: LeafWalk<'a, 3>,
     /// Instances that were come to.
     begun: HashSet<u32>,
     /// Those that have a next hit.
-    waiting: Vec<Waiting<'a>>,
+    waiting: Vec<Waiting<'a, T>>,
 }
 
 /// An instance with its next hit, and those after it.
 #[derive(Debug)]
-struct Waiting<'a> {
+struct Waiting<'a, T: 'static> {
     next: InstanceHit,
-    rest: AllHits<'a, TriangleMesh, 3>,
+    rest: AllHits<'a, TriangleMesh<T>, 3>,
 }
 
-impl<'a> InstanceHits<'a> {
-    pub(super) fn new(scene: &'a InstancedScene, ray: &Ray, rule: HitRule) -> Self {
-        let walk = LeafWalk::new(scene.tree(), ray, &mut ());
+impl<'a, T: Precision> InstanceHits<'a, T> {
+    pub(super) fn new(scene: &'a InstancedScene<T>, ray: &Ray, rule: HitRule) -> Self {
+        let walk = scene.walk(ray);
         let (begun, waiting) = (HashSet::new(), Vec::new());
         Self { scene, ray: *ray, rule, walk, begun, waiting }
     }
@@ -65,9 +65,9 @@ impl<'a> InstanceHits<'a> {
     }
 }
 
-impl FusedIterator for InstanceHits<'_> {}
+impl<T: Precision> FusedIterator for InstanceHits<'_, T> {}
 
-impl Iterator for InstanceHits<'_> {
+impl<T: Precision> Iterator for InstanceHits<'_, T> {
     type Item = InstanceHit;
 
     fn next(&mut self) -> Option<InstanceHit> {

@@ -1,9 +1,9 @@
 //! Many copies of few meshes: a kd-tree over kd-trees.
 
-use super::instance::{Instance, InstanceError, InstanceHit, place};
-use super::{InstanceHits, Scene};
+use super::instance::{Instance, InstanceError, InstanceHit, Place};
+use super::{InstanceHits, Precision, Scene};
 use crate::build::{BuildError, BuildOptions, Strategy};
-use crate::geometry::{Aabb, Ray};
+use crate::geometry::{Aabb, Ray, TreeSpace};
 use crate::primitives::{Hit, HitRule, Primitives};
 use crate::traverse::LeafWalk;
 use crate::tree::KdTree;
@@ -22,6 +22,10 @@ use thiserror::Error;
 ///
 /// An instance takes some 230 bytes.
 ///
+/// Geometries are all in f32, or all in f64. In f64 instances may be anywhere, and the tree over them is in
+/// coordinates of its own, as that over an f64 mesh is ([`tree_space`](Self::tree_space)); what was said of the
+/// largest coordinate is so of the scene's size.
+///
 /// ```
 /// use kdray::{BuildOptions, Instance, InstancedScene, Ray, Scene, TriangleMesh};
 /// let corners = vec![[0.0, 0.0, 2.0], [1.0, 0.0, 2.0], [0.0, 1.0, 2.0]];
@@ -33,19 +37,26 @@ use thiserror::Error;
 /// assert_eq!((found.instance_id, found.geometry_id, found.hit.t), (700, 0, 2.0));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Clone, Debug)]
-pub struct InstancedScene {
-    parts: Arc<Parts>,
+#[derive(Debug)]
+pub struct InstancedScene<T: 'static = f32> {
+    parts: Arc<Parts<T>>,
     mask: u32,
 }
 
+impl<T: 'static> Clone for InstancedScene<T> {
+    fn clone(&self) -> Self {
+        Self { parts: Arc::clone(&self.parts), mask: self.mask }
+    }
+}
+
 #[derive(Debug)]
-struct Parts {
-    geometries: Vec<Scene>,
+struct Parts<T: 'static> {
+    geometries: Vec<Scene<T>>,
     instances: Vec<Instance>,
     /// From the world into the space of each instance.
     to_object: Vec<DAffine3>,
     tree: KdTree,
+    space: TreeSpace,
 }
 
 /// Why a scene of instances cannot be built.
@@ -73,7 +84,7 @@ impl Primitives<3> for Boxes {
     }
 }
 
-impl InstancedScene {
+impl<T: Precision> InstancedScene<T> {
     /// The instances below which a tree has to know them by 30 bits.
     const MOST_INSTANCES: usize = 1 << 30;
 
@@ -83,24 +94,27 @@ impl InstancedScene {
     /// # Errors
     /// The first instance that cannot be placed, or why there is no tree.
     pub fn build(
-        geometries: Vec<Scene>,
+        geometries: Vec<Scene<T>>,
         instances: Vec<Instance>,
     ) -> Result<Self, InstancedSceneError> {
         if instances.len() >= Self::MOST_INSTANCES {
             return Err(InstanceError::TooMany(instances.len()).into());
         }
-        let (to_object, boxes): (Vec<_>, Vec<_>) = instances
-            .iter()
-            .enumerate()
-            .map(|(index, instance)| {
-                let geometry = geometry(&geometries, index, instance)?;
-                place(index, instance, geometry.tree().bounds())
-            })
-            .collect::<Result<Vec<_>, _>>()?
-            .into_iter()
-            .unzip();
-        let tree = KdTree::build(&Boxes(boxes), &BuildOptions::for_strategy(Strategy::Sah))?;
-        let parts = Arc::new(Parts { geometries, instances, to_object, tree });
+        let place = |(index, instance): (usize, &Instance)| {
+            let geometry = geometry(&geometries, index, instance)?;
+            let bounds = Some(geometry.tree().bounds()).filter(|bounds| !bounds.is_empty());
+            let space = geometry.mesh().tree_space();
+            Place::of(index, instance, bounds.map(|bounds| space.corners_in_mesh(bounds)))
+        };
+        let places = instances.iter().enumerate().map(place).collect::<Result<Vec<_>, _>>()?;
+        let space = space_around::<T>(&places);
+        let bounds = |(index, place): (usize, &Place)| {
+            place.bounds::<T>(&space).ok_or(InstanceError::OutOfRange(index))
+        };
+        let boxes = places.iter().enumerate().map(bounds).collect::<Result<Vec<_>, _>>()?;
+        let to_object = places.into_iter().map(|place| place.to_object).collect();
+        let tree = tree_over(boxes)?;
+        let parts = Arc::new(Parts { geometries, instances, to_object, tree, space });
         Ok(Self { parts, mask: u32::MAX })
     }
 
@@ -111,7 +125,7 @@ impl InstancedScene {
     }
 
     /// The scenes that are placed.
-    pub fn geometries(&self) -> &[Scene] {
+    pub fn geometries(&self) -> &[Scene<T>] {
         &self.parts.geometries
     }
 
@@ -125,10 +139,15 @@ impl InstancedScene {
         &self.parts.tree
     }
 
+    /// The coordinates that the tree over the instances is in: for geometries in f32 the world's.
+    pub fn tree_space(&self) -> &TreeSpace {
+        &self.parts.space
+    }
+
     /// The hit of least t; of several at the same t, the one of the smallest instance, then primitive.
     #[must_use]
     pub fn closest_hit(&self, ray: &Ray) -> Option<InstanceHit> {
-        let mut walk = LeafWalk::new(&self.parts.tree, ray, &mut ());
+        let mut walk = self.walk(ray);
         let (mut ray, mut closest) = (*ray, None::<InstanceHit>);
         while let Some(leaf) = walk.next_leaf(ray.interval.t_max, &mut ()) {
             for &id in leaf.primitives {
@@ -149,7 +168,7 @@ impl InstancedScene {
     /// Whether there is any hit: whether `ray.interval` is occluded.
     #[must_use]
     pub fn any_hit(&self, ray: &Ray) -> bool {
-        let mut walk = LeafWalk::new(&self.parts.tree, ray, &mut ());
+        let mut walk = self.walk(ray);
         while let Some(leaf) = walk.next_leaf(ray.interval.t_max, &mut ()) {
             let is_hit = |id: u32| {
                 self.carry(id, ray).is_some_and(|(geometry, carried)| geometry.any_hit(&carried))
@@ -163,20 +182,14 @@ impl InstancedScene {
 
     /// Every crossing of a surface, once, by rising t ([`HitRule::Crossing`]), found as they are asked
     /// for; at the same t by instance, then primitive.
-    pub fn all_hits(&self, ray: &Ray) -> InstanceHits<'_> {
+    pub fn all_hits(&self, ray: &Ray) -> InstanceHits<'_, T> {
         InstanceHits::new(self, ray, HitRule::Crossing)
     }
 
     /// Every triangle that the ray touches, by rising t ([`HitRule::Touching`]). To take the closest that
     /// some condition holds for is to find it here.
-    pub fn all_touched(&self, ray: &Ray) -> InstanceHits<'_> {
+    pub fn all_touched(&self, ray: &Ray) -> InstanceHits<'_, T> {
         InstanceHits::new(self, ray, HitRule::Touching)
-    }
-
-    /// How many surfaces the ray crosses: the number of [`all_hits`](Self::all_hits).
-    #[must_use]
-    pub fn count(&self, ray: &Ray) -> usize {
-        self.all_hits(ray).count()
     }
 
     /// The normal of what was hit, in the world, on the side that is the front: of twice the area of the
@@ -188,8 +201,14 @@ impl InstancedScene {
         (to_object.transpose() * normal / to_object.determinant().abs()).into()
     }
 
+    /// The leaves of the tree over the instances that a ray passes.
+    pub(super) fn walk(&self, ray: &Ray) -> LeafWalk<'_, 3> {
+        let in_tree = if T::FITS_TREE { Some(*ray) } else { self.parts.space.ray(ray) };
+        LeafWalk::seen_as(&self.parts.tree, ray, in_tree, &mut ())
+    }
+
     /// The geometry of an instance, and the ray in its space; `None` if this scene's rays do not see it.
-    pub(super) fn carry(&self, id: u32, ray: &Ray) -> Option<(&Scene, Ray)> {
+    pub(super) fn carry(&self, id: u32, ray: &Ray) -> Option<(&Scene<T>, Ray)> {
         let instance = &self.parts.instances[id as usize];
         if instance.mask & self.mask == 0 {
             return None;
@@ -209,12 +228,25 @@ impl InstancedScene {
     }
 }
 
+/// The coordinates of the tree over the instances.
+fn space_around<T: Precision>(places: &[Place]) -> TreeSpace {
+    let around =
+        |(low, high): (DVec3, DVec3), place: &Place| (low.min(place.low), high.max(place.high));
+    let (min, max) = places.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), around);
+    TreeSpace::around::<T>(min.into(), max.into())
+}
+
+/// The tree over the boxes of the instances. Apart, so that it is compiled once.
+fn tree_over(boxes: Vec<Aabb<3>>) -> Result<KdTree, BuildError> {
+    KdTree::build(&Boxes(boxes), &BuildOptions::for_strategy(Strategy::Sah))
+}
+
 /// The geometry of the instance of that index.
-fn geometry<'a>(
-    geometries: &'a [Scene],
+fn geometry<'a, T>(
+    geometries: &'a [Scene<T>],
     index: usize,
     instance: &Instance,
-) -> Result<&'a Scene, InstanceError> {
+) -> Result<&'a Scene<T>, InstanceError> {
     let geometry_id = instance.geometry_id;
     geometries.get(geometry_id as usize).ok_or(InstanceError::NoSuchGeometry {
         instance: index,

@@ -7,6 +7,7 @@ mod closest_point;
 mod contains;
 mod filtered;
 mod instance;
+mod instance_batch;
 mod instance_hits;
 mod instanced_scene;
 mod near;

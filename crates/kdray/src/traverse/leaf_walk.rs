@@ -49,7 +49,17 @@ impl<'a, const K: usize> LeafWalk<'a, K> {
         ray: &Ray<K>,
         trace: &mut impl Trace,
     ) -> Self {
-        match primitives.ray_in_tree(ray) {
+        Self::seen_as(tree, ray, primitives.ray_in_tree(ray), trace)
+    }
+
+    /// A walk along `ray`, which is `in_tree` as the tree sees it, or has numbers that do not fit there.
+    pub(crate) fn seen_as(
+        tree: &'a KdTree<K>,
+        ray: &Ray<K>,
+        in_tree: Option<Ray<K>>,
+        trace: &mut impl Trace,
+    ) -> Self {
+        match in_tree {
             None if ray.check().is_ok() => Self::everywhere(tree, ray, trace),
             in_tree => Self::new(tree, &in_tree.unwrap_or(*ray), trace),
         }
