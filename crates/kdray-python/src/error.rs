@@ -5,9 +5,9 @@ use std::any::Any;
 
 import_exception!(kdray.errors, ArgumentError);
 import_exception!(kdray.errors, BuildError);
+import_exception!(kdray.errors, FileError);
 import_exception!(kdray.errors, InternalError);
 import_exception!(kdray.errors, SceneError);
-import_exception!(kdray.errors, TreeFileError);
 import_exception!(kdray.errors, UnsupportedError);
 
 /// What became of a panic: a mistake of kdray, told as an exception.

@@ -14,13 +14,17 @@ mod closest_hit;
 mod closest_point;
 mod columns;
 mod error;
+mod files;
 mod job;
 mod mesh;
+mod picture;
 mod point_queries;
 mod points;
 mod pool;
 mod rays;
+mod render;
 mod rows;
+mod stats;
 mod surface;
 mod tree;
 
@@ -28,11 +32,21 @@ mod tree;
 #[pyo3::pymodule]
 mod _kdray {
     #[pymodule_export]
+    use crate::files::{
+        Look, file_hash, is_tree_file, load_tree, map_tree, read_mesh, save_tree, tree_hash,
+    };
+    #[pymodule_export]
     use crate::mesh::Mesh;
+    #[pymodule_export]
+    use crate::picture::Picture;
     #[pymodule_export]
     use crate::point_queries::{
         closest_point, contains, signed_distance, thickness, visible, winding_number,
     };
+    #[pymodule_export]
+    use crate::render::{World, render};
+    #[pymodule_export]
+    use crate::stats::stats;
     #[pymodule_export]
     use crate::tree::Tree;
 }

@@ -25,7 +25,7 @@ impl AMesh<'_> {
         }
     }
 
-    fn vertex_count(&self) -> usize {
+    pub(crate) fn vertex_count(&self) -> usize {
         match self {
             Self::F32(mesh) => mesh.vertices().len(),
             Self::F64(mesh) => mesh.vertices().len(),

@@ -94,13 +94,40 @@ impl World {
         options: &BuildOptions,
         progress: &(dyn Fn(BuildProgress) -> ControlFlow<()> + Sync),
     ) -> Result<Self, WorldError> {
-        check(&model)?;
+        check(&model, model.triangles.len())?;
         let vertices = std::mem::take(&mut model.vertices);
         let triangles = std::mem::take(&mut model.triangles);
         let mesh = TriangleMesh::new(vertices, triangles)?;
         let scene = Scene::build_with_progress(mesh, options, progress)?;
+        Ok(Self::of_parts(model, scene))
+    }
+
+    /// Takes triangles with the tree over them as they are; `model` tells what they look like. Its own
+    /// `vertices` and `triangles` are not looked at.
+    ///
+    /// ```
+    /// use kdray::{Scene, TriangleMesh};
+    /// use kdray_render::World;
+    /// use kdray_scene::Model;
+    /// let corners = vec![[0.0, 0.0, 2.0], [1.0, 0.0, 2.0], [0.0, 1.0, 2.0]];
+    /// let scene = Scene::build(TriangleMesh::new(corners, vec![[0, 1, 2]])?, &Default::default())?;
+    /// let grey = World::of_scene(Model::default(), scene.clone())?;
+    /// assert_eq!(grey.scene().mesh(), scene.mesh());
+    /// let two_ids = Model { material_ids: vec![0, 0], ..Model::default() };
+    /// assert!(World::of_scene(two_ids, scene).is_err());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// What in the model contradicts itself, or the triangles.
+    pub fn of_scene(model: Model, scene: Scene) -> Result<Self, WorldError> {
+        check(&model, scene.mesh().triangles().len())?;
+        Ok(Self::of_parts(model, scene))
+    }
+
+    fn of_parts(model: Model, scene: Scene) -> Self {
         let lets_light_through = lets_light_through(&model);
-        Ok(Self { model, scene, default_material: Material::default(), lets_light_through })
+        Self { model, scene, default_material: Material::default(), lets_light_through }
     }
 
     /// The triangles with the tree over them.
@@ -142,8 +169,7 @@ fn lets_light_through(model: &Model) -> bool {
     model.material_ids.iter().any(|&id| passes[id as usize])
 }
 
-fn check(model: &Model) -> Result<(), WorldError> {
-    let triangles = model.triangles.len();
+fn check(model: &Model, triangles: usize) -> Result<(), WorldError> {
     for (list, found) in [
         ("normals", model.normals.len()),
         ("texture coordinates", model.uvs.len()),

@@ -12,13 +12,14 @@ from .errors import (
     ArgumentError,
     ArgumentTypeError,
     BuildError,
+    FileError,
     InternalError,
     KdrayError,
     SceneError,
-    TreeFileError,
     UnsupportedError,
 )
 from .hits import AllHits, Hits
+from .picture import Picture
 from .scene import Scene
 
 __all__ = [
@@ -28,10 +29,11 @@ __all__ = [
     "BuildError",
     "ClosestPoints",
     "Hits",
+    "FileError",
     "InternalError",
     "KdrayError",
+    "Picture",
     "Scene",
     "SceneError",
-    "TreeFileError",
     "UnsupportedError",
 ]

@@ -1,7 +1,7 @@
 """The compiled part of kdray. Its arrays are those that the package's own files make; use these."""
 
 from collections.abc import Callable, Sequence
-from typing import Optional, final
+from typing import Any, Optional, final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,12 +10,24 @@ from .arrays import FloatArray
 from .rays import RayArrays
 
 __all__ = [
+    "Look",
     "Mesh",
+    "Picture",
     "Tree",
+    "World",
     "closest_point",
     "contains",
+    "file_hash",
+    "is_tree_file",
+    "load_tree",
+    "map_tree",
+    "read_mesh",
+    "render",
+    "save_tree",
     "signed_distance",
+    "stats",
     "thickness",
+    "tree_hash",
     "visible",
     "winding_number",
 ]
@@ -42,6 +54,27 @@ _NearestArrays = tuple[
 ]
 # the geometry, three rows of a matrix into the world, the mask
 _Copy = tuple[int, Sequence[Sequence[float]], int]
+
+@final
+class Look:
+    """What a file says besides its triangles: materials, lights, cameras."""
+
+@final
+class Picture:
+    """A rendered picture."""
+
+    @property
+    def rgba(self) -> NDArray[np.uint8]: ...
+    @property
+    def channels(self) -> dict[str, NDArray[Any]]: ...
+    def png(self, bits: int) -> bytes: ...
+    def exr(self) -> bytes: ...
+
+@final
+class World:
+    """A scene with what its triangles look like."""
+
+    def __new__(cls, tree: Tree, look: Look | None) -> World: ...
 
 @final
 class Mesh:
@@ -197,3 +230,20 @@ def thickness(
     threads: int | None,
     progress: _Progress,
 ) -> FloatArray: ...
+
+def read_mesh(path: str, *, drop_bad: bool) -> tuple[Mesh, Look, list[str]]: ...
+def is_tree_file(path: str) -> bool: ...
+def save_tree(tree: Tree, path: str) -> None: ...
+def load_tree(path: str, *, memory_limit: int | None, threads: int | None) -> Tree: ...
+def map_tree(path: str) -> Tree: ...
+def file_hash(path: str) -> str: ...
+def tree_hash(tree: Tree) -> str: ...
+def stats(tree: Tree) -> dict[str, Any]: ...
+def render(
+    world: World,
+    view: dict[str, Any],
+    quality: dict[str, Any],
+    *,
+    threads: int | None,
+    progress: _Progress,
+) -> Picture: ...

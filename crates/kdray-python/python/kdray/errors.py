@@ -4,10 +4,10 @@ __all__ = [
     "ArgumentError",
     "ArgumentTypeError",
     "BuildError",
+    "FileError",
     "InternalError",
     "KdrayError",
     "SceneError",
-    "TreeFileError",
     "UnsupportedError",
 ]
 
@@ -36,7 +36,7 @@ class UnsupportedError(KdrayError, NotImplementedError):
     """kdray cannot do this, for now."""
 
 
-class TreeFileError(KdrayError, OSError):
+class FileError(KdrayError, OSError):
     """A file is not there any more, has changed, or is none that can be used."""
 
 

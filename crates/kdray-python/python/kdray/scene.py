@@ -2,28 +2,35 @@
 
 from __future__ import annotations
 
+import os
+import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
+from html import escape
 from threading import Lock
 from typing import TYPE_CHECKING, Any, Optional
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
-from ._kdray import Mesh, Tree
+from . import _kdray
+from ._kdray import Look, Mesh, Tree
 from .arrays import FloatArray, face_indices, vectors
 from .errors import ArgumentError, ArgumentTypeError, SceneError, UnsupportedError
+from .figures import as_html
 from .meshes import triangles_of
 from .point_queries import PointQueries
 from .progress import Progress, telling
 from .ray_queries import RayQueries
+from .rendering import Rendering
+from .saved import Saved, Saving, path_of
 from .whole import ALL, mask_bits, whole, whole_or_none
 
 if TYPE_CHECKING:
     from ._kdray import _Copy
 
 
-class Scene(RayQueries, PointQueries):
+class Scene(RayQueries, PointQueries, Rendering, Saving):
     """Triangles with a tree over them, to be asked from any thread.
 
     >>> scene = Scene()
@@ -49,6 +56,7 @@ class Scene(RayQueries, PointQueries):
         """
         self._dtype = _precision(dtype)
         self._meshes: list[Mesh] = []
+        self._looks: list[Optional[Look]] = []
         self._copies: list[_Copy] = []
         self._tree: Optional[Tree] = None
         self._lock = Lock()
@@ -59,7 +67,12 @@ class Scene(RayQueries, PointQueries):
 
     @classmethod
     def of(cls, mesh: Any, *, dtype: Optional[DTypeLike] = None) -> Scene:
-        """The scene of one mesh: see ``add``."""
+        """The scene of one mesh, see ``add``; or of a tree file, see ``load``."""
+        if isinstance(mesh, (str, os.PathLike)) and _kdray.is_tree_file(path_of("mesh", mesh)):
+            scene = cls.load(mesh)
+            if dtype is not None and scene.dtype != _precision(dtype):
+                raise ArgumentError(f"dtype: the tree file is of {scene.dtype}; leave it out")
+            return scene
         scene = cls(dtype=dtype)
         scene.add(mesh)
         return scene
@@ -77,14 +90,26 @@ class Scene(RayQueries, PointQueries):
             # What overflows is not finite, and refused.
             with np.errstate(over="ignore"):
                 points = points.astype(self._dtype, copy=False)
-        mesh = Mesh(np.ascontiguousarray(points), face_indices(faces))
-        with self._changing():
-            self._meshes.append(mesh)
-            return len(self._meshes) - 1
+        return self._add(Mesh(np.ascontiguousarray(points), face_indices(faces)), None)
 
-    def add(self, mesh: Any) -> int:
-        """Adds a ``trimesh.Trimesh`` or an Open3D mesh of either kind as a geometry. Returns its id."""
-        return self.add_triangles(*triangles_of(mesh))
+    def add(self, mesh: Any, *, drop_bad: bool = False) -> int:
+        """Adds a mesh as a geometry. Returns its id.
+
+        It is a ``trimesh.Trimesh``, an Open3D mesh of either kind, or the path of an OBJ, PLY, STL, OFF, glTF or
+        GLB file, which may be compressed (.gz, .zst). ``drop_bad`` drops triangles of the file with indices out of
+        range or vertices that are not finite, with a warning, instead of refusing the file.
+        """
+        if not isinstance(mesh, (str, os.PathLike)):
+            return self.add_triangles(*triangles_of(mesh))
+        path = path_of("mesh", mesh)
+        if _kdray.is_tree_file(path):
+            raise ArgumentError("mesh: this is a tree file, which is a scene of its own; take Scene.load")
+        read, look, told = _kdray.read_mesh(path, drop_bad=bool(drop_bad))
+        for text in told:
+            warnings.warn(f"{path}: {text}", stacklevel=2)
+        if self._dtype is not None and (self._dtype == np.float64) != read.is_double:
+            read = Mesh(read.vertices.astype(self._dtype), read.faces)
+        return self._add(read, look)
 
     def add_instance(self, geometry_id: int, transform: ArrayLike, *, mask: int = ALL) -> int:
         """Adds a copy of a geometry, placed by a matrix (3, 4) or (4, 4) into the world. Returns its id.
@@ -133,6 +158,14 @@ class Scene(RayQueries, PointQueries):
             self._build(preset, split, options, threads, progress)
         return self
 
+    def stats(self) -> dict[str, Any]:
+        """The figures of the scene and its tree, under the names that the command ``kdray stats`` gives them.
+
+        ``sah_cost`` is what a random line is expected to cost. With instances, the tree is that over them.
+        Asking for them builds the tree.
+        """
+        return _kdray.stats(self._built())
+
     @property
     def is_built(self) -> bool:
         """Whether the tree is there, and nothing can be added any more."""
@@ -177,6 +210,12 @@ class Scene(RayQueries, PointQueries):
         """
         return self._built().bounds
 
+    def _repr_html_(self) -> str:
+        """What notebooks show: the figures of a scene that is built."""
+        if self._tree is None:
+            return f"<pre>{escape(repr(self))}</pre>"
+        return as_html(self.stats())
+
     def __len__(self) -> int:
         """How many triangles there are, each geometry counted once."""
         if self._tree is not None:
@@ -197,6 +236,24 @@ class Scene(RayQueries, PointQueries):
             with self._lock:
                 tree = self._tree or self._build(None, None, {}, threads, None)
         return tree
+
+    def _as_scene(self) -> Scene:
+        return self
+
+    def _look(self) -> Optional[Look]:
+        return self._looks[0] if len(self._looks) == 1 else None
+
+    @classmethod
+    def _of_tree(cls, tree: Tree, saved: Saved) -> Scene:
+        scene = cls()
+        scene._tree, scene._saved = tree, saved
+        return scene
+
+    def _add(self, mesh: Mesh, look: Optional[Look]) -> int:
+        with self._changing():
+            self._meshes.append(mesh)
+            self._looks.append(look)
+            return len(self._meshes) - 1
 
     def _build(
         self,

@@ -57,6 +57,15 @@ impl Picture {
         writer.write_all(&file).map_err(WriteError::Io)
     }
 
+    /// What a PNG of 8 bits a channel shows: red, green, blue and alpha of each pixel, the upper row first.
+    ///
+    /// # Errors
+    /// See [`WriteError`].
+    pub fn rgba8(&self) -> Result<Vec<u8>, WriteError> {
+        self.checked_size(MAX_SIDE)?;
+        Ok(self.canvas()?.into_bytes(eight_bits))
+    }
+
     /// What `kind` names, drawn.
     fn canvas(&self) -> Result<Canvas, WriteError> {
         let mut canvas = Canvas {
