@@ -7,6 +7,19 @@ use crate::job::{Control, each_part};
 use crate::rays::{RayBlock, Rays};
 use crate::tree::{Tree, for_scene};
 use pyo3::PyResult;
+use std::ops::Range;
+
+/// So many blocks of rays are answered before their hits are put behind those of the blocks before, which happens
+/// on one thread. What they take is what is there besides the answer.
+const WAVE: usize = 256;
+
+/// The hits of a block of rays.
+struct Block<F> {
+    rays: Range<usize>,
+    /// Where the hits of each ray end.
+    ends: Vec<usize>,
+    hits: Columns<F>,
+}
 
 /// The hits, and where those of each ray begin; behind that, where the last end. No ray has more than `limit`.
 pub(crate) fn all_hits<F: Real>(
@@ -15,39 +28,51 @@ pub(crate) fn all_hits<F: Real>(
     limit: usize,
     control: &Control,
 ) -> PyResult<(Vec<i64>, Columns<F>)> {
-    let starts = (0..rays.len()).step_by(BLOCK);
-    let mut blocks: Vec<_> =
-        starts.map(|first| (first, Vec::new(), Columns::new(&tree.places))).collect();
-    let scratch = || (RayBlock::default(), Vec::new());
-    let parts = blocks.iter_mut().collect();
-    each_part(
-        control,
-        parts,
-        scratch,
-        |(block, hits), (first, ends, columns): &mut (usize, Vec<usize>, Columns<F>)| {
-            rays.read(*first..rays.len().min(*first + BLOCK), block)?;
-            for ray in &block.rays {
-                let most = columns.len().saturating_add(limit);
-                for_scene!(tree, scene => scene.all(ray, hits, |found| {
-                    if columns.len() < most {
-                        columns.push(&tree.places, &found);
-                    }
-                }));
-                ends.push(columns.len());
-            }
-            control.add(block.rays.len());
-            Ok(())
-        },
-    )?;
     let mut offsets = Vec::with_capacity(rays.len() + 1);
     offsets.push(0);
-    let mut before = 0;
-    for (_, ends, columns) in &blocks {
-        offsets.extend(ends.iter().map(|end| (before + end) as i64));
-        before += columns.len();
+    let mut hits = Columns::new(&tree.places);
+    for first in (0..rays.len()).step_by(WAVE * BLOCK) {
+        let wave = first..rays.len().min(first + WAVE * BLOCK);
+        for block in wave_of_hits(tree, rays, wave, limit, control)? {
+            let before = hits.len();
+            offsets.extend(block.ends.iter().map(|end| (before + end) as i64));
+            hits.append(&block.hits);
+        }
     }
-    let columns = blocks.into_iter().map(|(_, _, columns)| columns);
-    Ok((offsets, Columns::joined(columns.collect())))
+    hits.shrink();
+    Ok((offsets, hits))
+}
+
+fn wave_of_hits<F: Real>(
+    tree: &Tree,
+    rays: &Rays<'_>,
+    wave: Range<usize>,
+    limit: usize,
+    control: &Control,
+) -> PyResult<Vec<Block<F>>> {
+    let empty = |first: usize| Block {
+        rays: first..wave.end.min(first + BLOCK),
+        ends: Vec::with_capacity(BLOCK),
+        hits: Columns::new(&tree.places),
+    };
+    let mut blocks: Vec<Block<F>> = wave.clone().step_by(BLOCK).map(empty).collect();
+    let scratch = || (RayBlock::default(), Vec::new());
+    let parts = blocks.iter_mut().collect();
+    each_part(control, parts, scratch, |(read, found), block: &mut Block<F>| {
+        rays.read(block.rays.clone(), read)?;
+        for ray in &read.rays {
+            let most = block.hits.len().saturating_add(limit);
+            for_scene!(tree, scene => scene.all(ray, found, |hit| {
+                if block.hits.len() < most {
+                    block.hits.push(&tree.places, &hit);
+                }
+            }));
+            block.ends.push(block.hits.len());
+        }
+        control.add(read.rays.len());
+        Ok(())
+    })?;
+    Ok(blocks)
 }
 
 /// How many there are of each ray: fewer than 2^31.

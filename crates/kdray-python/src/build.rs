@@ -74,30 +74,39 @@ pub(crate) fn build_instanced(
     py: Python<'_>,
     meshes: &[&Mesh],
     copies: Copies,
+    is_double: bool,
     options: &BuildOptions,
     job: &Job,
 ) -> PyResult<Tree> {
     let placed = copies.len() as u32;
     job.run(py, count(meshes) as u64, |control| {
-        let (mut geometries, mut before) = (Vec::with_capacity(meshes.len()), 0);
-        for mesh in meshes {
-            let triangles = before..before + mesh.0.len();
-            before = triangles.end;
-            geometries.push(scene(joined(&[mesh])?, options, control, triangles)?);
-        }
-        let has_copy: HashSet<u32> = copies.iter().map(|&(geometry_id, ..)| geometry_id).collect();
-        let ids = 0..geometries.len() as u32;
-        let as_they_are = ids.filter(|id| !has_copy.contains(id)).map(Instance::of);
-        let instances = copies.iter().map(|&(geometry_id, to_world, mask)| Instance {
-            geometry_id,
-            to_world,
-            mask,
-        });
-        let instances = instances.chain(as_they_are).collect();
-        let scene = InstancedScene::build(geometries, instances);
-        let scene = scene.map_err(|error| argument("transform", error))?;
-        Ok(Tree { places: Places::Instances(placed), ..Tree::from(Kind::Instanced(scene)) })
+        let kind = if is_double {
+            Kind::Copies64(placed_copies(meshes, &copies, options, control)?)
+        } else {
+            Kind::Copies32(placed_copies(meshes, &copies, options, control)?)
+        };
+        Ok(Tree { places: Places::Instances(placed), ..Tree::from(kind) })
     })
+}
+
+fn placed_copies<T: Precision>(
+    meshes: &[&Mesh],
+    copies: &Copies,
+    options: &BuildOptions,
+    control: &Control,
+) -> PyResult<InstancedScene<T>> {
+    let (mut geometries, mut before) = (Vec::with_capacity(meshes.len()), 0);
+    for mesh in meshes {
+        let triangles = before..before + mesh.0.len();
+        before = triangles.end;
+        geometries.push(scene(joined(&[mesh])?, options, control, triangles)?);
+    }
+    let has_copy: HashSet<u32> = copies.iter().map(|&(geometry_id, ..)| geometry_id).collect();
+    let ids = 0..geometries.len() as u32;
+    let as_they_are = ids.filter(|id| !has_copy.contains(id)).map(Instance::of);
+    let placed = |&(geometry_id, to_world, mask)| Instance { geometry_id, to_world, mask };
+    let instances = copies.iter().map(placed).chain(as_they_are).collect();
+    InstancedScene::build(geometries, instances).map_err(|error| argument("transform", error))
 }
 
 /// How many triangles there are.

@@ -70,19 +70,20 @@ impl<T: Precision> Cast for Scene<T> {
     }
 }
 
-impl Cast for InstancedScene {
+impl<T: Precision> Cast for InstancedScene<T> {
     fn closest(
         &self,
         rays: &[Ray],
         _: &mut Vec<Option<Hit>>,
         mut found: impl FnMut(usize, Option<Found>),
     ) {
-        let hits = rays.iter().map(|ray| self.closest_hit(ray).map(Found::from));
-        hits.enumerate().for_each(|(i, hit)| found(i, hit));
+        let mut hits = vec![None; rays.len()];
+        self.closest_hits(rays, &mut hits);
+        hits.iter().enumerate().for_each(|(i, hit)| found(i, hit.map(Found::from)));
     }
 
     fn any(&self, rays: &[Ray], found: &mut [bool]) {
-        rays.iter().zip(found).for_each(|(ray, found)| *found = self.any_hit(ray));
+        self.any_hits(rays, found);
     }
 
     fn counts(&self, rays: &[Ray], counts: &mut [usize]) {
@@ -90,6 +91,8 @@ impl Cast for InstancedScene {
     }
 
     fn all(&self, ray: &Ray, _: &mut Vec<Hit>, mut found: impl FnMut(Found)) {
-        self.all_hits(ray).for_each(|hit| found(hit.into()));
+        let mut hits = Vec::new();
+        self.all_hits_into(ray, &mut hits);
+        hits.into_iter().for_each(|hit| found(hit.into()));
     }
 }

@@ -6,7 +6,7 @@ use crate::job::{Control, each_part};
 use crate::mesh::rows;
 use crate::points::{BLOCK, Points};
 use crate::tree::{Place, Places};
-use kdray::{ClosestPoint, Hit, Scene, Side};
+use kdray::{ClosestPoint, Hit, Precision, Scene, Side};
 use numpy::IntoPyArray;
 use pyo3::{Bound, IntoPyObject, PyAny, PyResult, Python};
 
@@ -41,8 +41,8 @@ pub(crate) struct Arrays<'py>(
     Bound<'py, PyAny>,
 );
 
-pub(crate) fn closest_point<F: Real>(
-    scene: &Scene,
+pub(crate) fn closest_point<F: Real, T: Precision>(
+    scene: &Scene<T>,
     places: &Places,
     points: &Points<'_>,
     control: &Control,

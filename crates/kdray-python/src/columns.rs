@@ -125,17 +125,26 @@ impl<F: Real> Columns<F> {
         self.instance_id.iter_mut().for_each(|ids| ids.push(place.instance_id));
     }
 
-    /// One after the other. Column by column, so that no more than one is there twice.
-    pub(crate) fn joined(mut blocks: Vec<Self>) -> Self {
-        Self {
-            t: join(&mut blocks, |block| &mut block.t),
-            u: join(&mut blocks, |block| &mut block.u),
-            v: join(&mut blocks, |block| &mut block.v),
-            primitive_id: join(&mut blocks, |block| &mut block.primitive_id),
-            is_front: join(&mut blocks, |block| &mut block.is_front),
-            geometry_id: join_ids(&mut blocks, |block| &mut block.geometry_id),
-            instance_id: join_ids(&mut blocks, |block| &mut block.instance_id),
-        }
+    /// Adds the hits of others.
+    pub(crate) fn append(&mut self, others: &Self) {
+        self.t.extend_from_slice(&others.t);
+        self.u.extend_from_slice(&others.u);
+        self.v.extend_from_slice(&others.v);
+        self.primitive_id.extend_from_slice(&others.primitive_id);
+        self.is_front.extend_from_slice(&others.is_front);
+        append_ids(&mut self.geometry_id, &others.geometry_id);
+        append_ids(&mut self.instance_id, &others.instance_id);
+    }
+
+    /// Gives back what is not needed of the room that grew.
+    pub(crate) fn shrink(&mut self) {
+        self.t.shrink_to_fit();
+        self.u.shrink_to_fit();
+        self.v.shrink_to_fit();
+        self.primitive_id.shrink_to_fit();
+        self.is_front.shrink_to_fit();
+        self.geometry_id.iter_mut().for_each(Vec::shrink_to_fit);
+        self.instance_id.iter_mut().for_each(Vec::shrink_to_fit);
     }
 
     /// Gives the columns to Python, without a copy.
@@ -153,21 +162,10 @@ impl<F: Real> Columns<F> {
     }
 }
 
-fn join<B, T: Copy>(blocks: &mut [B], column: impl Fn(&mut B) -> &mut Vec<T>) -> Vec<T> {
-    let total = blocks.iter_mut().map(|block| column(block).len()).sum();
-    let mut joined = Vec::with_capacity(total);
-    for block in blocks {
-        joined.extend_from_slice(&std::mem::take(column(block)));
+fn append_ids(ids: &mut Option<Vec<i32>>, others: &Option<Vec<i32>>) {
+    if let (Some(ids), Some(others)) = (ids, others) {
+        ids.extend_from_slice(others);
     }
-    joined
-}
-
-fn join_ids<B>(
-    blocks: &mut [B],
-    column: impl Fn(&mut B) -> &mut Option<Vec<i32>>,
-) -> Option<Vec<i32>> {
-    let are_there = blocks.iter_mut().any(|block| column(block).is_some());
-    are_there.then(|| join(blocks, |block| column(block).get_or_insert_default()))
 }
 
 impl<F: Real> Part<'_, F> {

@@ -6,7 +6,7 @@ use crate::mesh::{AnyMesh, Mesh, refused};
 use crate::points::for_points;
 use crate::tree::{Kind, Places, Tree};
 use kdray::TriangleMesh;
-use kdray::file::{HEADER_BYTES, file_bytes};
+use kdray::file::{AnyScene, HEADER_BYTES, file_bytes};
 use kdray_scene::{LoadOptions, Model};
 use pyo3::{PyErr, PyResult, Python, pyclass, pyfunction};
 use std::fs::File;
@@ -69,17 +69,14 @@ pub(crate) fn load_tree(
 ) -> PyResult<Tree> {
     let bytes = |limit| u64::try_from(limit).map_err(|_| argument("memory_limit", "give bytes"));
     let limit = memory_limit.map(bytes).transpose()?;
-    Job::new(threads, None)?.run(py, 1, |_| {
-        let scene = kdray_file::load(&path, limit).map_err(unreadable)?;
-        Ok(Tree::from(Kind::F32(scene)))
-    })
+    Job::new(threads, None)?
+        .run(py, 1, |_| kdray_file::load_any(&path, limit).map(Tree::from).map_err(unreadable))
 }
 
 /// Maps a tree file into memory.
 #[pyfunction]
 pub(crate) fn map_tree(py: Python<'_>, path: PathBuf) -> PyResult<Tree> {
-    let scene = py.detach(|| kdray_file::map(&path)).map_err(unreadable)?;
-    Ok(Tree::from(Kind::F32(scene)))
+    py.detach(|| kdray_file::map_any(&path)).map(Tree::from).map_err(unreadable)
 }
 
 /// The hash of what a tree file holds, which stands in its header.
@@ -100,6 +97,15 @@ pub(crate) fn tree_hash(py: Python<'_>, tree: &Tree) -> PyResult<String> {
         let header = py.detach(|| scene.save(|bytes| Err(bytes.to_vec())));
         hash(&header.err().unwrap_or_default()).map_err(|error| unreadable(error.to_string()))
     })
+}
+
+impl From<AnyScene> for Tree {
+    fn from(scene: AnyScene) -> Self {
+        match scene {
+            AnyScene::F32(scene) => Self::from(Kind::F32(scene)),
+            AnyScene::F64(scene) => Self::from(Kind::F64(scene)),
+        }
+    }
 }
 
 fn read_header(path: &Path) -> std::io::Result<Vec<u8>> {

@@ -92,10 +92,10 @@ pub(crate) fn closest_point<'py>(
     let points = Points::new(points.rows("points")?, "points", lenient);
     let (job, places) = (Job::new(threads, progress)?, &tree.places);
     for_points!(tree, scene => if is_double {
-        let work = |control: &_| nearest::closest_point::<f64>(scene, places, &points, control);
+        let work = |control: &_| nearest::closest_point::<f64, _>(scene, places, &points, control);
         run(py, &job, points.len(), work)?.into_arrays(py)
     } else {
-        let work = |control: &_| nearest::closest_point::<f32>(scene, places, &points, control);
+        let work = |control: &_| nearest::closest_point::<f32, _>(scene, places, &points, control);
         run(py, &job, points.len(), work)?.into_arrays(py)
     })
 }

@@ -3,8 +3,8 @@
 use crate::error::{ArgumentError, UnsupportedError};
 use crate::job::{Control, each_part};
 use crate::rows::Rows;
-use crate::tree::{Kind, Tree};
-use kdray::{Scene, Side};
+use crate::tree::Tree;
+use kdray::{Precision, Scene, Side};
 use numpy::ndarray::ArrayView1;
 use pyo3::{PyErr, PyResult};
 use rayon::ThreadPoolBuilder;
@@ -57,8 +57,9 @@ macro_rules! for_points {
     ($tree:expr, $scene:ident => $answer:expr) => {
         match &$tree.kind {
             $crate::tree::Kind::F32($scene) => $answer,
-            $crate::tree::Kind::F64(_) | $crate::tree::Kind::Instanced(_) => {
-                Err($crate::points::unsupported($tree))
+            $crate::tree::Kind::F64($scene) => $answer,
+            $crate::tree::Kind::Copies32(_) | $crate::tree::Kind::Copies64(_) => {
+                Err($crate::points::unsupported())
             }
         }
     };
@@ -66,20 +67,17 @@ macro_rules! for_points {
 pub(crate) use for_points;
 
 /// That a scene does not answer questions about points.
-pub(crate) fn unsupported(tree: &Tree) -> PyErr {
-    let which = match &tree.kind {
-        Kind::Instanced(_) => "with instances; add the triangles of each copy instead",
-        _ => "of float64 vertices; make one with dtype=numpy.float32",
-    };
-    let text = format!("points, surfaces and tree files are not supported for scenes {which}");
-    UnsupportedError::new_err(text)
+pub(crate) fn unsupported() -> PyErr {
+    let reason = "points and tree files are not supported for scenes with instances; \
+                  add the triangles of each copy instead";
+    UnsupportedError::new_err(reason)
 }
 
 /// Finds out what all questions about inside and outside need, once for each scene.
 ///
 /// On threads of its own, and the caller waits: a thread that sorts edges may take up other work meanwhile, and
 /// would wait for itself if that needed what it is about to find.
-pub(crate) fn prepare(tree: &Tree, scene: &Scene, threads: usize) {
+pub(crate) fn prepare<T: Precision>(tree: &Tree, scene: &Scene<T>, threads: usize) {
     tree.prepared.get_or_init(|| {
         if let Ok(pool) = ThreadPoolBuilder::new().num_threads(threads).build() {
             pool.install(|| scene.closure());
@@ -106,8 +104,8 @@ pub(crate) fn each_point<A: Copy + Default + Send>(
 }
 
 /// Whether nothing is between each point and that of the same index.
-pub(crate) fn visible(
-    scene: &Scene,
+pub(crate) fn visible<T: Precision>(
+    scene: &Scene<T>,
     from: &Points<'_>,
     to: &Points<'_>,
     control: &Control,
@@ -135,8 +133,8 @@ pub(crate) struct Surface<'a> {
 }
 
 /// How thick the material behind each place is; NaN where nothing is behind it, or there is no such triangle.
-pub(crate) fn thickness(
-    scene: &Scene,
+pub(crate) fn thickness<T: Precision>(
+    scene: &Scene<T>,
     at: &Surface<'_>,
     side: Side,
     control: &Control,

@@ -2,7 +2,8 @@
 
 use crate::surface;
 use crate::tree::{Kind, Places, Tree};
-use kdray::{CostModel, KdTree, TreeStats};
+use kdray::layout::WideTree;
+use kdray::{CostModel, InstancedScene, Precision, Scene, TreeStats};
 use pyo3::types::{PyDict, PyDictMethods};
 use pyo3::{Bound, PyResult, Python, pyfunction};
 
@@ -17,11 +18,12 @@ pub(crate) fn stats<'py>(py: Python<'py>, tree: &Tree) -> PyResult<Bound<'py, Py
         triangles += mesh.triangles().len();
         vertices += mesh.vertex_count();
     }
-    let (geometries, instances) = match (&tree.places, &tree.kind) {
-        (Places::Many(firsts), _) => (firsts.len(), 0),
-        (_, Kind::Instanced(scene)) => (scene.geometries().len(), scene.instances().len()),
-        _ => (1, 0),
+    let geometries = match &tree.places {
+        Places::One => 1,
+        Places::Many(firsts) => firsts.len(),
+        Places::Instances(_) => surface::meshes(tree).len(),
     };
+    let instances = surface::instances(tree).len();
     let bounds = py.detach(|| surface::bounds(tree)).map(|corners| corners.map(|it| it.to_vec()));
     let [low, high] = bounds.map_or([None, None], |corners| corners.map(Some));
     dict.set_item("triangles", triangles)?;
@@ -46,22 +48,22 @@ pub(crate) fn stats<'py>(py: Python<'py>, tree: &Tree) -> PyResult<Bound<'py, Py
 
 /// The canonical tree's figures, and the bytes of the wide trees.
 fn measure(tree: &Tree) -> (TreeStats, usize) {
-    let of = |tree: &KdTree, count| tree.stats(count, &CostModel::default());
     match &tree.kind {
-        Kind::F32(scene) => {
-            let wide = scene.wide_tree().map_or(0, kdray::layout::WideTree::bytes);
-            (of(scene.tree(), scene.mesh().triangles().len()), wide)
-        }
-        Kind::F64(scene) => {
-            let wide = scene.wide_tree().map_or(0, kdray::layout::WideTree::bytes);
-            (of(scene.tree(), scene.mesh().triangles().len()), wide)
-        }
-        Kind::Instanced(scene) => {
-            let trees = scene.geometries().iter().filter_map(kdray::Scene::wide_tree);
-            (
-                of(scene.tree(), scene.instances().len()),
-                trees.map(kdray::layout::WideTree::bytes).sum(),
-            )
-        }
+        Kind::F32(scene) => measure_scene(scene),
+        Kind::F64(scene) => measure_scene(scene),
+        Kind::Copies32(scene) => measure_copies(scene),
+        Kind::Copies64(scene) => measure_copies(scene),
     }
+}
+
+fn measure_scene<T: Precision>(scene: &Scene<T>) -> (TreeStats, usize) {
+    let triangles = scene.mesh().triangles().len();
+    let wide = scene.wide_tree().map_or(0, WideTree::bytes);
+    (scene.tree().stats(triangles, &CostModel::default()), wide)
+}
+
+fn measure_copies<T: Precision>(scene: &InstancedScene<T>) -> (TreeStats, usize) {
+    let trees = scene.geometries().iter().filter_map(Scene::wide_tree);
+    let figures = scene.tree().stats(scene.instances().len(), &CostModel::default());
+    (figures, trees.map(WideTree::bytes).sum())
 }

@@ -3,7 +3,8 @@
 use crate::mesh::rows;
 use crate::tree::{Kind, Places, Tree};
 use glam::DVec3;
-use kdray::{Coordinate, Scene, TriangleMesh};
+use kdray::geometry::TreeSpace;
+use kdray::{Coordinate, Instance, KdTree, TriangleMesh};
 use numpy::ndarray::ArrayView1;
 use pyo3::{Bound, PyAny, PyResult, Python};
 
@@ -41,13 +42,26 @@ impl AMesh<'_> {
 }
 
 /// The meshes that the trees are over: those of each geometry where there are instances, else one of all.
-pub(crate) fn meshes(tree: &Tree) -> impl Iterator<Item = AMesh<'_>> {
-    let (one, several) = match &tree.kind {
-        Kind::F32(scene) => (Some(AMesh::F32(scene.mesh())), [].iter()),
-        Kind::F64(scene) => (Some(AMesh::F64(scene.mesh())), [].iter()),
-        Kind::Instanced(scene) => (None, scene.geometries().iter()),
-    };
-    one.into_iter().chain(several.map(|scene: &Scene| AMesh::F32(scene.mesh())))
+pub(crate) fn meshes(tree: &Tree) -> Vec<AMesh<'_>> {
+    match &tree.kind {
+        Kind::F32(scene) => vec![AMesh::F32(scene.mesh())],
+        Kind::F64(scene) => vec![AMesh::F64(scene.mesh())],
+        Kind::Copies32(scene) => {
+            scene.geometries().iter().map(|it| AMesh::F32(it.mesh())).collect()
+        }
+        Kind::Copies64(scene) => {
+            scene.geometries().iter().map(|it| AMesh::F64(it.mesh())).collect()
+        }
+    }
+}
+
+/// Where copies are; none where there are no instances.
+pub(crate) fn instances(tree: &Tree) -> &[Instance] {
+    match &tree.kind {
+        Kind::F32(_) | Kind::F64(_) => &[],
+        Kind::Copies32(scene) => scene.instances(),
+        Kind::Copies64(scene) => scene.instances(),
+    }
 }
 
 /// The corners of the box around all triangles.
@@ -55,11 +69,19 @@ pub(crate) fn bounds(tree: &Tree) -> Option<[[f64; 3]; 2]> {
     match &tree.kind {
         Kind::F32(scene) => bounds_of(scene.mesh()),
         Kind::F64(scene) => bounds_of(scene.mesh()),
-        Kind::Instanced(scene) => {
-            let bounds = scene.tree().bounds();
-            (!bounds.is_empty()).then(|| [bounds.min, bounds.max].map(|p| p.map(f64::from)))
-        }
+        Kind::Copies32(scene) => bounds_of_tree(scene.tree(), scene.tree_space()),
+        Kind::Copies64(scene) => bounds_of_tree(scene.tree(), scene.tree_space()),
     }
+}
+
+/// Those of the tree over instances, which is in coordinates of its own.
+fn bounds_of_tree(tree: &KdTree, space: &TreeSpace) -> Option<[[f64; 3]; 2]> {
+    let bounds = tree.bounds();
+    let in_world = |corner: [f32; 3]| {
+        let center = space.center();
+        [0, 1, 2].map(|k| f64::from(corner[k]) / space.scale() + center[k])
+    };
+    (!bounds.is_empty()).then(|| [bounds.min, bounds.max].map(in_world))
 }
 
 fn bounds_of<T: Coordinate>(mesh: &TriangleMesh<T>) -> Option<[[f64; 3]; 2]> {
@@ -78,7 +100,11 @@ pub(crate) fn vertices<'py>(tree: &Tree, py: Python<'py>) -> PyResult<Bound<'py,
     match &tree.kind {
         Kind::F32(scene) => rows(py, scene.mesh().vertices()),
         Kind::F64(scene) => rows(py, scene.mesh().vertices()),
-        Kind::Instanced(scene) => {
+        Kind::Copies32(scene) => {
+            let lists: Vec<_> = scene.geometries().iter().map(|it| it.mesh().vertices()).collect();
+            rows(py, &lists.concat())
+        }
+        Kind::Copies64(scene) => {
             let lists: Vec<_> = scene.geometries().iter().map(|it| it.mesh().vertices()).collect();
             rows(py, &lists.concat())
         }
@@ -132,7 +158,7 @@ fn each(
     [primitives, geometries, instances]: Ids<'_>,
     find: impl Fn(usize, Placed) -> Option<[f64; 3]>,
 ) -> Vec<[f64; 3]> {
-    let meshes: Vec<_> = meshes(tree).collect();
+    let meshes = meshes(tree);
     let ids = primitives.iter().zip(geometries).zip(instances);
     let found = ids.enumerate().map(|(index, ((&primitive, &geometry), &instance))| {
         find(index, place(tree, &meshes, primitive, geometry, instance)?)
@@ -158,15 +184,14 @@ fn place(
         return None;
     }
     let corners = mesh.corners(id);
-    match &tree.kind {
-        Kind::Instanced(scene) if instance >= 0 => {
-            let to_world = &scene.instances().get(instance as usize)?.to_world;
-            let axis = |k: usize| DVec3::from(to_world.map(|row| row[k]));
-            let is_mirrored = axis(0).cross(axis(1)).dot(axis(2)) < 0.0;
-            Some(Placed { corners: corners.map(|it| moved(to_world, it)), is_mirrored })
-        }
-        _ => Some(Placed { corners, is_mirrored: false }),
+    let instances = instances(tree);
+    if instances.is_empty() || instance < 0 {
+        return Some(Placed { corners, is_mirrored: false });
     }
+    let to_world = &instances.get(instance as usize)?.to_world;
+    let axis = |k: usize| DVec3::from(to_world.map(|row| row[k]));
+    let is_mirrored = axis(0).cross(axis(1)).dot(axis(2)) < 0.0;
+    Some(Placed { corners: corners.map(|it| moved(to_world, it)), is_mirrored })
 }
 
 /// The world's point for one of a geometry.

@@ -30,7 +30,8 @@ pub(crate) struct Tree {
 pub(crate) enum Kind {
     F32(Scene<f32>),
     F64(Scene<f64>),
-    Instanced(InstancedScene),
+    Copies32(InstancedScene<f32>),
+    Copies64(InstancedScene<f64>),
 }
 
 /// Calls for whatever scene a tree is of.
@@ -39,7 +40,8 @@ macro_rules! for_scene {
         match &$tree.kind {
             $crate::tree::Kind::F32($scene) => $answer,
             $crate::tree::Kind::F64($scene) => $answer,
-            $crate::tree::Kind::Instanced($scene) => $answer,
+            $crate::tree::Kind::Copies32($scene) => $answer,
+            $crate::tree::Kind::Copies64($scene) => $answer,
         }
     };
 }
@@ -143,7 +145,7 @@ impl Tree {
         let job = Job::new(threads, progress)?;
         match copies.is_empty() {
             true => build::build(py, &meshes, is_double, &options, &job),
-            false => build::build_instanced(py, &meshes, copies, &options, &job),
+            false => build::build_instanced(py, &meshes, copies, is_double, &options, &job),
         }
     }
 
@@ -157,13 +159,13 @@ impl Tree {
     /// How many triangles there are, those of each geometry once.
     #[getter]
     fn face_count(&self) -> usize {
-        surface::meshes(self).map(|mesh| mesh.triangles().len()).sum()
+        surface::meshes(self).iter().map(|mesh| mesh.triangles().len()).sum()
     }
 
     /// Whether the vertices are f64.
     #[getter]
     fn is_double(&self) -> bool {
-        matches!(self.kind, Kind::F64(_))
+        matches!(self.kind, Kind::F64(_) | Kind::Copies64(_))
     }
 
     /// A copy of the vertices of all geometries.
@@ -296,8 +298,10 @@ impl Tree {
     /// The same for rays that see the instances whose mask shares a bit with theirs.
     fn seen_by(&self, mask: u32) -> Self {
         let mut tree = self.clone();
-        if let Kind::Instanced(scene) = &mut tree.kind {
-            *scene = scene.clone().with_mask(mask);
+        match &mut tree.kind {
+            Kind::Copies32(scene) => *scene = scene.clone().with_mask(mask),
+            Kind::Copies64(scene) => *scene = scene.clone().with_mask(mask),
+            Kind::F32(_) | Kind::F64(_) => {}
         }
         tree
     }

@@ -114,8 +114,9 @@ def test_several_geometries_have_ids_of_their_own():
     assert scene.faces.max() == 23 and scene.vertices.shape == (24, 3)
 
 
-def test_instances_are_placed_and_masked():
-    scene = kdray.Scene(CUBE_VERTICES, CUBE_FACES)
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_instances_are_placed_and_masked(dtype):
+    scene = kdray.Scene(CUBE_VERTICES, CUBE_FACES, dtype=dtype)
     floor = scene.add_triangles(np.array([[-9, -9, 5], [9, -9, 5], [0, 9, 5]], np.float32), [[0, 1, 2]])
     moved, mirrored = np.eye(4), np.diag([-1.0, 1, 1, 1])
     moved[:3, 3] = [2, 0, 0]
@@ -131,7 +132,5 @@ def test_instances_are_placed_and_masked():
     assert scene.count(ray) == 3 and scene.count(ray, mask=1) == 1 and scene.closest_hit(ray, mask=1).t == 6
     assert scene.any_hit(ray, mask=2, t_max=2) and not scene.any_hit(ray, mask=4, t_max=2)
     np.testing.assert_array_equal(scene.all_hits(ray).instance_id, [1, 1, -1])
-    with pytest.raises(kdray.UnsupportedError, match="float64"):
-        double = kdray.Scene(CUBE_VERTICES.astype(float), CUBE_FACES)
-        double.add_instance(0, np.eye(4))
-        double.build()
+    assert scene.dtype == scene.vertices.dtype == dtype
+    np.testing.assert_allclose(scene.bounds, [[-9, -9, 0], [9, 9, 5]], atol=1e-4)

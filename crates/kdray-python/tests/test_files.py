@@ -13,10 +13,10 @@ from test_errors import fails
 import kdray
 
 
-@pytest.fixture
-def saved(tmp_path):
+@pytest.fixture(params=[np.float32, np.float64])
+def saved(request, tmp_path):
     """A scene and its file."""
-    scene = kdray.Scene(*sphere(12))
+    scene = kdray.Scene(*sphere(12), dtype=request.param)
     scene.save(tmp_path / "ball.kdray")
     return scene, tmp_path / "ball.kdray"
 
@@ -41,6 +41,7 @@ def test_a_saved_scene_is_the_same(saved):
         same_answers(scene, again)
         assert again.is_built and again.path == str(path) and again.content_hash == scene.content_hash
         np.testing.assert_array_equal(again.vertices, scene.vertices)
+        assert again.vertices.dtype == scene.dtype == again.dtype
         np.testing.assert_array_equal(again.faces, scene.faces)
         with pytest.raises(kdray.SceneError):
             again.add_triangles(CUBE_VERTICES, CUBE_FACES)
@@ -48,7 +49,7 @@ def test_a_saved_scene_is_the_same(saved):
 
 def test_the_content_hash_is_that_of_mesh_and_tree(saved):
     scene, _ = saved
-    assert kdray.Scene(*sphere(12)).content_hash == scene.content_hash and len(scene.content_hash) == 16
+    assert kdray.Scene(*sphere(12), dtype=scene.dtype).content_hash == scene.content_hash and len(scene.content_hash) == 16
     assert kdray.Scene(*sphere(12)).build("fast").content_hash != scene.content_hash
     assert kdray.Scene(*sphere(12, seed=7)).content_hash != scene.content_hash
 

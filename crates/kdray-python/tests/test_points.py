@@ -117,11 +117,19 @@ def test_bad_input(cube, points):
     assert not nothing.contains([0, 0, 0]) and nothing.visible([0, 0, 0], [1, 1, 1])
 
 
-def test_what_is_not_supported():
-    double = kdray.Scene(CUBE_VERTICES.astype(float), CUBE_FACES)
-    copies = kdray.Scene(CUBE_VERTICES, CUBE_FACES)
-    copies.add_instance(0, np.eye(4))
-    for scene in (double, copies):
-        for ask in (scene.contains, scene.closest_point, scene.signed_distance, scene.thickness):
-            with pytest.raises(kdray.UnsupportedError, match="float64|instances"):
-                ask([0.5, 0.5, 0.5])
+def test_vertices_of_f64_are_not_rounded():
+    corner = np.array([500_000.0, 5_400_000.0, 0.001])
+    scene = kdray.Scene(corner + CUBE_VERTICES.astype(float) / 1024, CUBE_FACES)
+    nearest = scene.closest_point(corner + [1 / 2048, 1 / 2048, -1 / 1024])
+    assert abs(nearest.distance - 1 / 1024) < 1e-9 and scene.thickness(nearest) - 1 / 1024 < 1e-9
+    inside = corner + [[1 / 2048] * 3, [1 / 512] * 3]
+    np.testing.assert_array_equal(scene.contains(inside), [True, False])
+    np.testing.assert_array_equal(scene.winding_number(inside), [1, 0])
+    assert not scene.visible(*inside)
+
+
+def test_instances_are_not_supported(cube):
+    cube.add_instance(0, np.eye(4))
+    for ask in (cube.contains, cube.closest_point, cube.signed_distance, cube.thickness):
+        with pytest.raises(kdray.UnsupportedError, match="instances"):
+            ask([0.5, 0.5, 0.5])

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 from . import _kdray
 from ._kdray import Look, Mesh, Tree
 from .arrays import FloatArray, face_indices, vectors
-from .errors import ArgumentError, ArgumentTypeError, SceneError, UnsupportedError
+from .errors import ArgumentError, ArgumentTypeError, SceneError
 from .figures import as_html
 from .meshes import triangles_of
 from .point_queries import PointQueries
@@ -264,9 +264,6 @@ class Scene(RayQueries, PointQueries, Rendering, Saving):
         progress: Progress,
     ) -> Tree:
         is_double = self.dtype == np.float64
-        if is_double and self._copies:
-            text = "dtype: instances of float64 geometries are not supported; give float32 vertices"
-            raise UnsupportedError(text)
         numbers = {name: whole_or_none(name, number) for name, number in options.items()}
         with telling(progress, "triangle") as told:
             self._tree = Tree.build(
