@@ -9,6 +9,7 @@ pub mod bundles;
 pub mod closed;
 pub mod command_line;
 pub mod flat;
+pub mod fuzz;
 pub mod meshes;
 pub mod oracle;
 pub mod owned_packet;

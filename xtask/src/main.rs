@@ -5,6 +5,7 @@
 mod agree;
 mod attack;
 mod bench;
+mod fuzz;
 mod lint;
 mod parity;
 mod peers;
@@ -39,6 +40,8 @@ enum Task {
     /// Rays that are aimed to break kdray, at closed and awkward meshes; every answer must be right. In a
     /// release build.
     Attack(attack::Options),
+    /// Every loader, tree files, builds and queries on inputs that a fuzzer makes up; needs cargo-fuzz.
+    Fuzz(fuzz::Options),
     /// kdray beside Embree and other libraries: rays a second, build times, memory, wrong answers.
     #[command(disable_help_flag = true)]
     Bench(bench::Options),
@@ -54,6 +57,7 @@ fn main() -> ExitCode {
         Task::Agree(options) => agree::run(&options),
         Task::Parity(options) => parity::run(&options),
         Task::Attack(options) => attack::run(&options),
+        Task::Fuzz(options) => fuzz::run(&options),
         Task::Bench(options) => bench::run(options),
         Task::Pixels(options) => pixels::run(&options),
     };

@@ -1,0 +1,178 @@
+//! Small meshes through any build options, and rays at them: every kernel against testing every triangle.
+
+use super::draw::Draw;
+use crate::OwnedPacket;
+use kdray::geometry::Common;
+use kdray::layout::Hint;
+use kdray::primitives::{HitArrays, HitRule};
+use kdray::{Arithmetic, BuildError, Hit, InstructionSet, Precision, Ray, Scene, TriangleMesh};
+
+/// Of f32 vertices.
+pub fn f32(data: &[u8]) {
+    let mut draw = Draw::new(data);
+    let mesh = draw.mesh::<f32>();
+    if let Some(scene) = built(mesh, &mut draw) {
+        scene.verify().unwrap_or_else(|error| panic!("what was built is right: {error}"));
+        ask(&scene, &mut draw);
+    }
+}
+
+/// Of f64 vertices.
+pub fn f64(data: &[u8]) {
+    let mut draw = Draw::new(data);
+    let mesh = draw.mesh::<f64>();
+    if let Some(scene) = built(mesh, &mut draw) {
+        ask(&scene, &mut draw);
+    }
+}
+
+/// The scene, if the options are such that there is one.
+///
+/// # Panics
+/// If the tree is wrong, or is refused without a reason.
+pub fn built<T: Precision>(mesh: TriangleMesh<T>, draw: &mut Draw<'_>) -> Option<Scene<T>> {
+    let options = draw.options();
+    let scene = match Scene::build(mesh, &options) {
+        Ok(scene) => scene,
+        Err(BuildError::CostModel(error)) => {
+            assert_eq!(options.cost.check(), Err(error));
+            return None;
+        }
+        Err(BuildError::Memory { needed, limit }) => {
+            assert!(Some(limit) == options.memory_limit && needed > limit, "{options:?}");
+            return None;
+        }
+        Err(error) => panic!("{error}: {options:?}"),
+    };
+    let valid = scene.tree().validate(scene.mesh());
+    assert!(valid.is_ok(), "{valid:?} by {options:?}");
+    Some(scene)
+}
+
+/// Asks about rays as long as there are bytes.
+fn ask<T: Precision>(scene: &Scene<T>, draw: &mut Draw<'_>) {
+    const MOST: usize = 24;
+    let sets = InstructionSet::available();
+    let scenes: Vec<_> = sets.iter().map(|&set| scene.clone().with_instructions(set)).collect();
+    let mut rays = Vec::new();
+    while rays.len() < MOST && (rays.is_empty() || draw.has_more()) {
+        let mut ray = draw.ray(scene.mesh());
+        if draw.byte() % 4 == 3
+            && let Some(hit) = scene.closest_hit(&ray)
+        {
+            let t_max = if draw.bit() { hit.t } else { ray.interval.t_max };
+            ray = ray.with_interval(hit.t, t_max);
+        }
+        rays.push(ray);
+    }
+    for ray in &rays {
+        check_alone(&scenes, ray);
+    }
+    check_together(&scenes, &rays);
+    check_packets(&scenes, &rays, draw);
+}
+
+/// What a ray meets, by testing every triangle.
+struct Expected {
+    closest: Option<Hit>,
+    crossed: Vec<Hit>,
+    touched: Vec<Hit>,
+}
+
+fn expected<T: Precision>(scene: &Scene<T>, ray: &Ray) -> Expected {
+    let naive = scene.shapes().naive();
+    let [crossed, touched] =
+        [HitRule::Crossing, HitRule::Touching].map(|rule| naive.all_hits(ray, rule));
+    let closest = naive.closest_hit(ray);
+    let in_interval = |hit: &Hit| (ray.interval.t_min..=ray.interval.t_max).contains(&hit.t);
+    for hit in crossed.iter().chain(&touched) {
+        assert!(hit.t.is_finite() && in_interval(hit), "{hit:?} of {ray:?}");
+        assert!(hit.u.is_finite() && hit.v.is_finite(), "{hit:?} of {ray:?}");
+    }
+    assert_eq!(closest, touched.first().copied(), "{ray:?}");
+    Expected { closest, crossed, touched }
+}
+
+/// One ray by every query.
+fn check_alone<T: Precision>(scenes: &[Scene<T>], ray: &Ray) {
+    let Expected { closest, crossed, touched } = expected(&scenes[0], ray);
+    let shapes = scenes[0].shapes();
+    assert_eq!(shapes.closest_hit(ray), closest, "leaf walk, {ray:?}");
+    assert_eq!(shapes.any_hit(ray), closest.is_some(), "leaf walk, {ray:?}");
+    assert_eq!(shapes.all_hits(ray).collect::<Vec<_>>(), crossed, "leaf walk, {ray:?}");
+    assert_eq!(shapes.all_touched(ray).collect::<Vec<_>>(), touched, "leaf walk, {ray:?}");
+    if let Some((first, rest)) = touched.split_first() {
+        assert_eq!(shapes.all_touched_after(ray, first).collect::<Vec<_>>(), rest, "{ray:?}");
+    }
+    for scene in scenes {
+        let set = scene_name(scene);
+        assert_eq!(scene.closest_hit(ray), closest, "{set}, {ray:?}");
+        assert_eq!(scene.any_hit(ray), closest.is_some(), "{set}, {ray:?}");
+        let mut all = Vec::new();
+        scene.all_hits_into(ray, &mut all);
+        assert_eq!(all, crossed, "{set}, {ray:?}");
+        assert_eq!(scene.count(ray), crossed.len(), "{set}, {ray:?}");
+        let hinted = scene.closest_hit_with_hint(ray);
+        assert_eq!(hinted.map(|(hit, _)| hit), closest, "{set}, {ray:?}");
+        let float = scene.clone().with_arithmetic(Arithmetic::Float);
+        if let Some(hit) = float.closest_hit(ray) {
+            assert!((hit.primitive_id as usize) < scene.mesh().triangles().len(), "{hit:?}");
+        }
+        let _ = float.any_hit(ray);
+    }
+}
+
+/// What a failure is told with: the size of the mesh and whether there is a wide tree.
+fn scene_name<T: Precision>(scene: &Scene<T>) -> String {
+    let wide = if scene.wide_tree().is_some() { "wide" } else { "no wide tree" };
+    format!("{} triangles, {wide}", scene.mesh().triangles().len())
+}
+
+/// Rays in batches, and with hints of each other.
+fn check_together<T: Precision>(scenes: &[Scene<T>], rays: &[Ray]) {
+    let alone: Vec<_> = rays.iter().map(|ray| scenes[0].shapes().closest_hit(ray)).collect();
+    let is_hit: Vec<_> = alone.iter().map(Option::is_some).collect();
+    for scene in scenes {
+        let mut hits = vec![None; rays.len()];
+        scene.closest_hits(rays, &mut hits);
+        assert_eq!(hits, alone, "{rays:?}");
+        let mut found = vec![false; rays.len()];
+        scene.any_hits(rays, &mut found);
+        assert_eq!(found, is_hit, "{rays:?}");
+        let hint = |ray: &Ray| scene.closest_hit_with_hint(ray).map_or(Hint::NONE, |it| it.1);
+        let mut hints: Vec<_> = rays.iter().map(hint).collect();
+        hints.rotate_left(1);
+        scene.any_hits_near(rays, &hints, &mut found);
+        assert_eq!(found, is_hit, "{rays:?}");
+        for (ray, &hint) in rays.iter().zip(&hints) {
+            assert_eq!(scene.any_hit_near(ray, hint), scene.any_hit(ray), "{ray:?}");
+        }
+        let crossed = |ray: &Ray| scene.shapes().naive().all_hits(ray, HitRule::Crossing);
+        scene.each_all_hits(rays, |place, hits| assert_eq!(hits, crossed(&rays[place])));
+    }
+}
+
+/// The same origins or directions, with something in common.
+fn check_packets<T: Precision>(scenes: &[Scene<T>], rays: &[Ray], draw: &mut Draw<'_>) {
+    let shared = rays[draw.below(rays.len())];
+    let (common, each): (_, Vec<_>) = match draw.byte() % 3 {
+        0 => (Common::Origin(shared.origin), rays.iter().map(|ray| ray.direction).collect()),
+        1 => (Common::Direction(shared.direction), rays.iter().map(|ray| ray.origin).collect()),
+        _ => (Common::Target(shared.origin), rays.iter().map(|ray| ray.origin).collect()),
+    };
+    // Packets are for rays side by side; few rays are left to others.
+    let each: Vec<_> = each.iter().copied().cycle().take(64).collect();
+    let owned = OwnedPacket::new(common, &each);
+    let packet = owned.packet();
+    let (mut hits, mut found) = (HitArrays::default(), vec![false; packet.len()]);
+    for scene in scenes {
+        scene.packet_closest_hits(&packet, &mut hits);
+        scene.packet_any_hits(&packet, &mut found);
+        for (index, &is_hit) in found.iter().enumerate().take(rays.len()) {
+            let ray = packet.ray(index);
+            let alone = scene.shapes().closest_hit(&ray);
+            assert_eq!(hits.get(index), alone, "packet, {ray:?}");
+            assert_eq!(is_hit, alone.is_some(), "packet, {ray:?}");
+        }
+    }
+}

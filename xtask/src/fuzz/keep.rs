@@ -1,0 +1,72 @@
+//! From what was found to what is kept in the repository.
+
+use super::folders::{Folders, count, make};
+use super::programs::{Target, program};
+use super::watch::watch;
+use crate::steps::say;
+use std::fs::{self, File};
+use std::io;
+use std::path::Path;
+use std::process::Stdio;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// How many bytes a target's corpus may have; beyond, the largest inputs are left out.
+const MOST_BYTES: u64 = 40_000;
+
+/// Makes a target's corpus anew: as few of all inputs as cover what all cover. The old one is replaced when the
+/// new one is whole.
+pub(super) fn keep(folders: &Folders, target: &Target, stop: &AtomicBool) -> Result<(), String> {
+    let name = &target.name;
+    let (kept, old) = (folders.work("kept").join(name), folders.work("old").join(name));
+    let (corpus, found, seeds) = (folders.corpus(name), folders.found(name), folders.seeds(name));
+    let told = |error: io::Error| format!("{name}: {error}");
+    for folder in [&kept, &old] {
+        remove(folder).map_err(told)?;
+    }
+    for folder in [&kept, &folders.work("old"), &corpus, &found, &folders.work("logs")] {
+        make(folder)?;
+    }
+    let mut command = program(folders, target)?;
+    command.arg("-set_cover_merge=1").args([&kept, &corpus, &found, &seeds]);
+    let child = command.stderr(Stdio::piped()).spawn();
+    let mut child = child.map_err(|error| format!("{name}: cannot be started: {error}"))?;
+    let log = File::create(folders.work("logs").join(name).with_extension("keep.log"));
+    watch(&mut child, log.map_err(told)?, stop, |spent| {
+        say(&format!("    {name}: {} s", spent.wall.as_secs()));
+    });
+    if stop.load(Ordering::SeqCst) {
+        return Ok(());
+    }
+    let status = child.wait().map_err(told)?;
+    if !status.success() || count(&kept) == 0 {
+        return Err(format!("{name}: the inputs cannot be merged ({status})"));
+    }
+    let bytes = cut(&kept).map_err(told)?;
+    fs::rename(&corpus, &old).and_then(|()| fs::rename(&kept, &corpus)).map_err(told)?;
+    say(&format!("    {name}: {} inputs of {bytes} bytes in all", count(&corpus)));
+    Ok(())
+}
+
+/// Removes a folder, if it is there.
+fn remove(folder: &Path) -> io::Result<()> {
+    if folder.exists() { fs::remove_dir_all(folder) } else { Ok(()) }
+}
+
+/// Leaves out the largest inputs, until few enough bytes are left; these are counted.
+fn cut(folder: &Path) -> io::Result<u64> {
+    let mut files = Vec::new();
+    for entry in fs::read_dir(folder)? {
+        let entry = entry?;
+        files.push((entry.metadata()?.len(), entry.path()));
+    }
+    files.sort();
+    let mut sum = 0;
+    for (bytes, path) in files {
+        if sum + bytes > MOST_BYTES {
+            fs::remove_file(path)?;
+        } else {
+            sum += bytes;
+        }
+    }
+    Ok(sum)
+}
