@@ -1,3 +1,8 @@
 #![no_main]
 
-libfuzzer_sys::fuzz_target!(|data: &[u8]| kdray_tests::fuzz::run("compressed", data));
+use kdray_tests::fuzz;
+
+libfuzzer_sys::fuzz_target!(
+    init: fuzz::write_seeds("compressed"),
+    |data: &[u8]| fuzz::run("compressed", data)
+);

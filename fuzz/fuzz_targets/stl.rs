@@ -1,3 +1,8 @@
 #![no_main]
 
-libfuzzer_sys::fuzz_target!(|data: &[u8]| kdray_tests::fuzz::run("stl", data));
+use kdray_tests::fuzz;
+
+libfuzzer_sys::fuzz_target!(
+    init: fuzz::write_seeds("stl"),
+    |data: &[u8]| fuzz::run("stl", data)
+);

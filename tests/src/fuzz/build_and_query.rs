@@ -49,11 +49,13 @@ pub fn built<T: Precision>(mesh: TriangleMesh<T>, draw: &mut Draw<'_>) -> Option
     Some(scene)
 }
 
-/// Asks about rays as long as there are bytes.
+/// Asks about rays as long as there are bytes, by one instruction set.
 fn ask<T: Precision>(scene: &Scene<T>, draw: &mut Draw<'_>) {
-    const MOST: usize = 24;
+    // The exact arithmetic of far numbers takes its time.
+    const MOST: usize = 8;
     let sets = InstructionSet::available();
-    let scenes: Vec<_> = sets.iter().map(|&set| scene.clone().with_instructions(set)).collect();
+    let scene = scene.clone().with_instructions(draw.choose(&sets));
+    let with_packet = draw.byte() % 4 == 3;
     let mut rays = Vec::new();
     while rays.len() < MOST && (rays.is_empty() || draw.has_more()) {
         let mut ray = draw.ray(scene.mesh());
@@ -65,11 +67,12 @@ fn ask<T: Precision>(scene: &Scene<T>, draw: &mut Draw<'_>) {
         }
         rays.push(ray);
     }
-    for ray in &rays {
-        check_alone(&scenes, ray);
+    let expected: Vec<_> = rays.iter().map(|ray| expected(&scene, ray)).collect();
+    rays.iter().zip(&expected).for_each(|(ray, expected)| check_alone(&scene, ray, expected));
+    check_together(&scene, &rays, &expected);
+    if with_packet {
+        check_packets(&scene, &rays, draw);
     }
-    check_together(&scenes, &rays);
-    check_packets(&scenes, &rays, draw);
 }
 
 /// What a ray meets, by testing every triangle.
@@ -94,85 +97,81 @@ fn expected<T: Precision>(scene: &Scene<T>, ray: &Ray) -> Expected {
 }
 
 /// One ray by every query.
-fn check_alone<T: Precision>(scenes: &[Scene<T>], ray: &Ray) {
-    let Expected { closest, crossed, touched } = expected(&scenes[0], ray);
-    let shapes = scenes[0].shapes();
-    assert_eq!(shapes.closest_hit(ray), closest, "leaf walk, {ray:?}");
+fn check_alone<T: Precision>(scene: &Scene<T>, ray: &Ray, expected: &Expected) {
+    let Expected { closest, crossed, touched } = expected;
+    let shapes = scene.shapes();
+    assert_eq!(shapes.closest_hit(ray), *closest, "leaf walk, {ray:?}");
     assert_eq!(shapes.any_hit(ray), closest.is_some(), "leaf walk, {ray:?}");
-    assert_eq!(shapes.all_hits(ray).collect::<Vec<_>>(), crossed, "leaf walk, {ray:?}");
-    assert_eq!(shapes.all_touched(ray).collect::<Vec<_>>(), touched, "leaf walk, {ray:?}");
+    assert_eq!(&shapes.all_hits(ray).collect::<Vec<_>>(), crossed, "leaf walk, {ray:?}");
+    assert_eq!(&shapes.all_touched(ray).collect::<Vec<_>>(), touched, "leaf walk, {ray:?}");
     if let Some((first, rest)) = touched.split_first() {
         assert_eq!(shapes.all_touched_after(ray, first).collect::<Vec<_>>(), rest, "{ray:?}");
     }
-    for scene in scenes {
-        let set = scene_name(scene);
-        assert_eq!(scene.closest_hit(ray), closest, "{set}, {ray:?}");
-        assert_eq!(scene.any_hit(ray), closest.is_some(), "{set}, {ray:?}");
-        let mut all = Vec::new();
-        scene.all_hits_into(ray, &mut all);
-        assert_eq!(all, crossed, "{set}, {ray:?}");
-        assert_eq!(scene.count(ray), crossed.len(), "{set}, {ray:?}");
-        let hinted = scene.closest_hit_with_hint(ray);
-        assert_eq!(hinted.map(|(hit, _)| hit), closest, "{set}, {ray:?}");
-        let float = scene.clone().with_arithmetic(Arithmetic::Float);
-        if let Some(hit) = float.closest_hit(ray) {
-            assert!((hit.primitive_id as usize) < scene.mesh().triangles().len(), "{hit:?}");
-        }
-        let _ = float.any_hit(ray);
+    let which = name(scene);
+    assert_eq!(scene.closest_hit(ray), *closest, "{which}, {ray:?}");
+    assert_eq!(scene.any_hit(ray), closest.is_some(), "{which}, {ray:?}");
+    let mut all = Vec::new();
+    scene.all_hits_into(ray, &mut all);
+    assert_eq!(&all, crossed, "{which}, {ray:?}");
+    let float = scene.clone().with_arithmetic(Arithmetic::Float);
+    if let Some(hit) = float.closest_hit(ray) {
+        assert!((hit.primitive_id as usize) < scene.mesh().triangles().len(), "{hit:?}");
     }
+    let _ = float.any_hit(ray);
 }
 
 /// What a failure is told with: the size of the mesh and whether there is a wide tree.
-fn scene_name<T: Precision>(scene: &Scene<T>) -> String {
+fn name<T: Precision>(scene: &Scene<T>) -> String {
     let wide = if scene.wide_tree().is_some() { "wide" } else { "no wide tree" };
     format!("{} triangles, {wide}", scene.mesh().triangles().len())
 }
 
 /// Rays in batches, and with hints of each other.
-fn check_together<T: Precision>(scenes: &[Scene<T>], rays: &[Ray]) {
-    let alone: Vec<_> = rays.iter().map(|ray| scenes[0].shapes().closest_hit(ray)).collect();
+fn check_together<T: Precision>(scene: &Scene<T>, rays: &[Ray], expected: &[Expected]) {
+    let alone: Vec<_> = expected.iter().map(|it| it.closest).collect();
     let is_hit: Vec<_> = alone.iter().map(Option::is_some).collect();
-    for scene in scenes {
-        let mut hits = vec![None; rays.len()];
-        scene.closest_hits(rays, &mut hits);
-        assert_eq!(hits, alone, "{rays:?}");
-        let mut found = vec![false; rays.len()];
-        scene.any_hits(rays, &mut found);
-        assert_eq!(found, is_hit, "{rays:?}");
-        let hint = |ray: &Ray| scene.closest_hit_with_hint(ray).map_or(Hint::NONE, |it| it.1);
-        let mut hints: Vec<_> = rays.iter().map(hint).collect();
-        hints.rotate_left(1);
-        scene.any_hits_near(rays, &hints, &mut found);
-        assert_eq!(found, is_hit, "{rays:?}");
-        for (ray, &hint) in rays.iter().zip(&hints) {
-            assert_eq!(scene.any_hit_near(ray, hint), scene.any_hit(ray), "{ray:?}");
-        }
-        let crossed = |ray: &Ray| scene.shapes().naive().all_hits(ray, HitRule::Crossing);
-        scene.each_all_hits(rays, |place, hits| assert_eq!(hits, crossed(&rays[place])));
+    // Fewer than eight are not taken together.
+    let again = |count: usize| (0..count).cycle().take(count.max(8));
+    let many: Vec<_> = again(rays.len()).map(|i| rays[i]).collect();
+    let mut hits = vec![None; many.len()];
+    scene.closest_hits(&many, &mut hits);
+    assert_eq!(hits[..rays.len()], alone, "{rays:?}");
+    let mut found = vec![false; many.len()];
+    scene.any_hits(&many, &mut found);
+    assert_eq!(found[..rays.len()], is_hit, "{rays:?}");
+    let hinted: Vec<_> = rays.iter().map(|ray| scene.closest_hit_with_hint(ray)).collect();
+    let hint = |i: usize| hinted[(i + 1) % rays.len()].map_or(Hint::NONE, |it| it.1);
+    let hints: Vec<_> = again(rays.len()).map(hint).collect();
+    scene.any_hits_near(&many, &hints, &mut found);
+    assert_eq!(found[..rays.len()], is_hit, "{rays:?}");
+    for (i, ray) in rays.iter().enumerate() {
+        assert_eq!(hinted[i].map(|(hit, _)| hit), alone[i], "{ray:?}");
+        assert_eq!(scene.any_hit_near(ray, hints[i]), is_hit[i], "{ray:?}");
     }
+    scene.each_all_hits(&many, |place, hits| {
+        assert_eq!(hits, expected[place % rays.len()].crossed, "{:?}", many[place]);
+    });
 }
 
 /// The same origins or directions, with something in common.
-fn check_packets<T: Precision>(scenes: &[Scene<T>], rays: &[Ray], draw: &mut Draw<'_>) {
+fn check_packets<T: Precision>(scene: &Scene<T>, rays: &[Ray], draw: &mut Draw<'_>) {
     let shared = rays[draw.below(rays.len())];
     let (common, each): (_, Vec<_>) = match draw.byte() % 3 {
         0 => (Common::Origin(shared.origin), rays.iter().map(|ray| ray.direction).collect()),
         1 => (Common::Direction(shared.direction), rays.iter().map(|ray| ray.origin).collect()),
         _ => (Common::Target(shared.origin), rays.iter().map(|ray| ray.origin).collect()),
     };
-    // Packets are for rays side by side; few rays are left to others.
+    // Fewer are not taken together.
     let each: Vec<_> = each.iter().copied().cycle().take(64).collect();
     let owned = OwnedPacket::new(common, &each);
     let packet = owned.packet();
     let (mut hits, mut found) = (HitArrays::default(), vec![false; packet.len()]);
-    for scene in scenes {
-        scene.packet_closest_hits(&packet, &mut hits);
-        scene.packet_any_hits(&packet, &mut found);
-        for (index, &is_hit) in found.iter().enumerate().take(rays.len()) {
-            let ray = packet.ray(index);
-            let alone = scene.shapes().closest_hit(&ray);
-            assert_eq!(hits.get(index), alone, "packet, {ray:?}");
-            assert_eq!(is_hit, alone.is_some(), "packet, {ray:?}");
-        }
+    scene.packet_closest_hits(&packet, &mut hits);
+    scene.packet_any_hits(&packet, &mut found);
+    for (index, &is_hit) in found.iter().enumerate().take(rays.len()) {
+        let ray = packet.ray(index);
+        let alone = scene.shapes().closest_hit(&ray);
+        assert_eq!(hits.get(index), alone, "packet, {ray:?}");
+        assert_eq!(is_hit, alone.is_some(), "packet, {ray:?}");
     }
 }

@@ -118,7 +118,7 @@ impl<'a> Draw<'a> {
         let vertices: Vec<_> = (0..count).map(|_| self.point().map(coordinate::<T>)).collect();
         let index = |draw: &mut Self| draw.below(count) as u32;
         let kind = self.byte() % 4;
-        let parts = self.below(if kind < 2 { 40 } else { 10 });
+        let parts = self.below(if kind < 2 { 24 } else { 6 });
         let triangles: Vec<[u32; 3]> = match kind {
             0 => (0..parts).map(|_| [(); 3].map(|()| index(self))).collect(),
             1 => (0..parts as u32)

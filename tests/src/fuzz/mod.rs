@@ -13,6 +13,8 @@ pub mod seeds;
 pub mod tree_file;
 
 use kdray_scene::Format;
+use std::fs;
+use std::path::PathBuf;
 
 /// Something to fuzz.
 #[derive(Clone, Copy, Debug)]
@@ -21,68 +23,53 @@ pub struct Target {
     pub name: &'static str,
     /// Runs one input; a panic is a bug.
     pub body: fn(&[u8]),
-    /// How many bytes are worth trying.
-    pub max_len: usize,
     /// Inputs to begin with.
     pub seeds: fn() -> Vec<Vec<u8>>,
 }
 
+impl Target {
+    const fn new(name: &'static str, body: fn(&[u8]), seeds: fn() -> Vec<Vec<u8>>) -> Self {
+        Self { name, body, seeds }
+    }
+}
+
 /// All of them.
 pub const TARGETS: [Target; 12] = [
-    Target { name: "obj", body: loaders::obj, max_len: 2048, seeds: seeds::obj },
-    Target {
-        name: "ply",
-        body: |d| loaders::read(Format::Ply, d),
-        max_len: 1024,
-        seeds: seeds::ply,
-    },
-    Target {
-        name: "stl",
-        body: |d| loaders::read(Format::Stl, d),
-        max_len: 1024,
-        seeds: seeds::stl,
-    },
-    Target {
-        name: "off",
-        body: |d| loaders::read(Format::Off, d),
-        max_len: 512,
-        seeds: seeds::off,
-    },
-    Target {
-        name: "gltf",
-        body: |d| loaders::read(Format::Gltf, d),
-        max_len: 4096,
-        seeds: seeds::gltf,
-    },
-    Target { name: "glb", body: loaders::glb, max_len: 4096, seeds: seeds::glb },
-    Target {
-        name: "compressed",
-        body: loaders::compressed,
-        max_len: 1024,
-        seeds: seeds::compressed,
-    },
-    Target { name: "tree_file", body: tree_file::run, max_len: 8192, seeds: seeds::tree_file },
-    Target {
-        name: "build_and_query_f32",
-        body: build_and_query::f32,
-        max_len: 512,
-        seeds: seeds::any,
-    },
-    Target {
-        name: "build_and_query_f64",
-        body: build_and_query::f64,
-        max_len: 512,
-        seeds: seeds::any,
-    },
-    Target { name: "points", body: points::run, max_len: 512, seeds: seeds::any },
-    Target { name: "instances", body: instances::run, max_len: 512, seeds: seeds::any },
+    Target::new("obj", loaders::obj, seeds::obj),
+    Target::new("ply", |data| loaders::read(Format::Ply, data), seeds::ply),
+    Target::new("stl", |data| loaders::read(Format::Stl, data), seeds::stl),
+    Target::new("off", |data| loaders::read(Format::Off, data), seeds::off),
+    Target::new("gltf", |data| loaders::read(Format::Gltf, data), seeds::gltf),
+    Target::new("glb", loaders::glb, seeds::glb),
+    Target::new("compressed", loaders::compressed, seeds::compressed),
+    Target::new("tree_file", tree_file::run, seeds::tree_file),
+    Target::new("build_and_query_f32", build_and_query::f32, seeds::any),
+    Target::new("build_and_query_f64", build_and_query::f64, seeds::any),
+    Target::new("points", points::run, seeds::any),
+    Target::new("instances", instances::run, seeds::any),
 ];
+
+fn target(name: &str) -> &'static Target {
+    let target = TARGETS.iter().find(|target| target.name == name);
+    target.expect("a target of this name")
+}
 
 /// Runs an input of a target.
 ///
 /// # Panics
 /// If there is no such target, or kdray fails.
 pub fn run(name: &str, data: &[u8]) {
-    let target = TARGETS.iter().find(|target| target.name == name);
-    (target.expect("a target of this name").body)(data);
+    (target(name).body)(data);
+}
+
+/// Writes the inputs that a target begins with to the folder that `KDRAY_SEEDS` names, if it does.
+///
+/// # Panics
+/// If there is no such target, or the folder cannot be written.
+pub fn write_seeds(name: &str) {
+    let Some(folder) = std::env::var_os("KDRAY_SEEDS").map(PathBuf::from) else { return };
+    for (index, seed) in (target(name).seeds)().iter().enumerate() {
+        let written = fs::write(folder.join(format!("seed-{index}")), seed);
+        written.unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
+    }
 }

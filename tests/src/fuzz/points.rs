@@ -13,7 +13,7 @@ pub fn run(data: &[u8]) {
     let mesh = draw.mesh::<f32>();
     let Some(scene) = built(mesh, &mut draw) else { return };
     let mut last = [0.0; 3];
-    for _ in 0..16 {
+    for _ in 0..8 {
         let point = draw.aim(scene.mesh());
         check_nearest(&scene, point);
         check_inside(&scene, point);

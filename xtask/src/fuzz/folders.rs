@@ -28,12 +28,9 @@ impl Folders {
         self.0.join("corpus").join(target)
     }
 
-    /// Words that inputs are made of, if there is a list.
-    pub(super) fn dictionary(&self, target: &str) -> Option<PathBuf> {
-        // The same words in another container.
-        let name = if target == "glb" { "gltf" } else { target };
-        let file = self.0.join("dictionaries").join(name).with_extension("dict");
-        file.exists().then_some(file)
+    /// What a target's program is told: flags in libFuzzer's form.
+    pub(super) fn options(&self, target: &str) -> PathBuf {
+        self.0.join("options").join(target).with_extension("options")
     }
 
     /// What is not in the repository: a folder for each kind.

@@ -38,7 +38,7 @@ pub(crate) fn run(options: &Options) -> Result<(), String> {
     programs::check_tools()?;
     let folders = Folders::new();
     let targets = chosen(programs::targets(&folders)?, &options.targets)?;
-    programs::build(&folders, &targets)?;
+    programs::build(&folders)?;
     let stop = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&stop);
     // The program that is running gets the signal as well, and ends in order.

@@ -2,13 +2,14 @@
 
 use super::folders::{Folders, make};
 use crate::steps::{Steps, cargo};
+use std::fs;
 use std::process::{Command, Stdio};
 
 /// Something to fuzz.
 pub(super) struct Target {
     pub(super) name: String,
-    /// How many bytes an input has at most.
-    max_len: usize,
+    /// Flags of its own.
+    flags: Vec<String>,
 }
 
 /// Says what is missing.
@@ -23,47 +24,54 @@ pub(super) fn check_tools() -> Result<(), String> {
     Err(needed.to_owned())
 }
 
-/// All targets; their seeds are written.
+/// All targets, as the manifest of the programs lists them.
 pub(super) fn targets(folders: &Folders) -> Result<Vec<Target>, String> {
-    let mut command = cargo();
-    command.args(["run", "--quiet", "-p", "kdray-tests", "--bin", "fuzz_seeds", "--"]);
-    let output = command.arg(folders.work("seeds")).stderr(Stdio::inherit()).output();
-    let output = output.map_err(|error| format!("cannot start cargo: {error}"))?;
-    if !output.status.success() {
-        return Err("the seeds cannot be written".to_owned());
+    let mut list = cargo();
+    let listed = list.args(["fuzz", "list", "--fuzz-dir"]).arg(folders.home()).output();
+    let listed = listed.map_err(|error| format!("cannot start cargo: {error}"))?;
+    let names = String::from_utf8_lossy(&listed.stdout).into_owned();
+    names.lines().map(|name| Target::read(folders, name)).collect()
+}
+
+impl Target {
+    /// Reads the flags of a target: lines such as `max_len = 512`.
+    fn read(folders: &Folders, name: &str) -> Result<Self, String> {
+        let file = folders.options(name);
+        let text = fs::read_to_string(&file);
+        let text = text.map_err(|error| format!("{}: {error}", file.display()))?;
+        let flags = text.lines().filter_map(|line| match line.split_once(" = ")? {
+            ("dict", path) => Some(format!("-dict={}", folders.home().join(path).display())),
+            (key, value) => Some(format!("-{key}={value}")),
+        });
+        Ok(Self { name: name.to_owned(), flags: flags.collect() })
     }
-    let lines = String::from_utf8_lossy(&output.stdout).into_owned();
-    let targets = lines.lines().filter_map(|line| {
-        let (name, max_len) = line.split_once(' ')?;
-        Some(Target { name: name.to_owned(), max_len: max_len.parse().ok()? })
-    });
-    Ok(targets.collect())
 }
 
 /// Compiles the programs. The flags that they need are unstable ones, also where rustc is stable.
-pub(super) fn build(folders: &Folders, targets: &[Target]) -> Result<(), String> {
+pub(super) fn build(folders: &Folders) -> Result<(), String> {
     let mut steps = Steps::new();
     let home = folders.home().display().to_string();
     let target = folders.target().display().to_string();
-    let mut arguments = ["fuzz", "build", "--fuzz-dir", &home, "--target-dir", &target].to_vec();
-    if let [only] = targets {
-        arguments.push(&only.name);
-    }
-    let arguments: Vec<_> = arguments.into_iter().map(str::to_owned).collect();
+    let arguments = ["fuzz", "build", "--fuzz-dir", &home, "--target-dir", &target];
+    let arguments = arguments.map(str::to_owned);
     steps.cargo_with("programs", &arguments, &[("RUSTC_BOOTSTRAP", "1")])
 }
 
 /// A call of a target's program, with the flags that all calls need.
 pub(super) fn program(folders: &Folders, target: &Target) -> Result<Command, String> {
     let path = folders.target().join(host()?).join("release").join(&target.name);
-    let artifacts = folders.artifacts().join(&target.name);
-    make(&artifacts)?;
+    let (artifacts, seeds) = (folders.artifacts().join(&target.name), folders.seeds(&target.name));
+    [&artifacts, &seeds].into_iter().try_for_each(|folder| make(folder))?;
     let mut command = Command::new(path);
     command.arg(format!("-artifact_prefix={}/", artifacts.display()));
-    command.arg(format!("-max_len={}", target.max_len));
+    command.args(&target.flags);
     // Seconds and megabytes that no input may take.
     command.args(["-timeout=20", "-rss_limit_mb=2048"]);
-    command.env("RAYON_NUM_THREADS", "1").stdin(Stdio::null()).stdout(Stdio::null());
+    command
+        .env("RAYON_NUM_THREADS", "1")
+        .env("KDRAY_SEEDS", seeds)
+        .stdin(Stdio::null())
+        .stdout(Stdio::null());
     Ok(command)
 }
 

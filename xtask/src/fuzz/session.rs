@@ -25,7 +25,6 @@ pub(super) fn run(
     let mut command = program(folders, target)?;
     command.arg("-print_final_stats=1");
     command.arg(format!("-max_total_time={}", limit.as_secs_f64().ceil() as u64));
-    command.args(folders.dictionary(name).map(|file| format!("-dict={}", file.display())));
     // What is found goes into the first folder.
     command.arg(&found).arg(folders.corpus(name)).arg(folders.seeds(name));
     let child = command.stderr(Stdio::piped()).spawn();
