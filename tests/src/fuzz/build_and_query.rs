@@ -113,6 +113,7 @@ fn check_alone<T: Precision>(scene: &Scene<T>, ray: &Ray, expected: &Expected) {
     let mut all = Vec::new();
     scene.all_hits_into(ray, &mut all);
     assert_eq!(&all, crossed, "{which}, {ray:?}");
+    assert_eq!(scene.count(ray), crossed.len(), "{which}, {ray:?}");
     let float = scene.clone().with_arithmetic(Arithmetic::Float);
     if let Some(hit) = float.closest_hit(ray) {
         assert!((hit.primitive_id as usize) < scene.mesh().triangles().len(), "{hit:?}");
@@ -148,6 +149,10 @@ fn check_together<T: Precision>(scene: &Scene<T>, rays: &[Ray], expected: &[Expe
         assert_eq!(hinted[i].map(|(hit, _)| hit), alone[i], "{ray:?}");
         assert_eq!(scene.any_hit_near(ray, hints[i]), is_hit[i], "{ray:?}");
     }
+    let mut counts = vec![0; many.len()];
+    scene.counts(&many, &mut counts);
+    let crossed = expected.iter().map(|it| it.crossed.len());
+    assert!(counts.iter().copied().take(rays.len()).eq(crossed), "{counts:?} of {rays:?}");
     scene.each_all_hits(&many, |place, hits| {
         assert_eq!(hits, expected[place % rays.len()].crossed, "{:?}", many[place]);
     });

@@ -52,8 +52,11 @@ pub(super) fn build(folders: &Folders) -> Result<(), String> {
     let mut steps = Steps::new();
     let home = folders.home().display().to_string();
     let target = folders.target().display().to_string();
-    let arguments = ["fuzz", "build", "--fuzz-dir", &home, "--target-dir", &target];
-    let arguments = arguments.map(str::to_owned);
+    // As one piece, which is what cargo-fuzz would do, the kernels take several times as long to compile.
+    let pieces = ["--codegen-units", "16"];
+    let folders = ["fuzz", "build", "--fuzz-dir", &home, "--target-dir", &target];
+    let arguments = [&folders[..], &pieces].concat().into_iter().map(str::to_owned);
+    let arguments: Vec<_> = arguments.collect();
     steps.cargo_with("programs", &arguments, &[("RUSTC_BOOTSTRAP", "1")])
 }
 
