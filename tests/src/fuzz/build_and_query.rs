@@ -9,18 +9,17 @@ use kdray::{Arithmetic, BuildError, Hit, InstructionSet, Precision, Ray, Scene, 
 
 /// Of f32 vertices.
 pub fn f32(data: &[u8]) {
-    let mut draw = Draw::new(data);
-    let mesh = draw.mesh::<f32>();
-    if let Some(scene) = built(mesh, &mut draw) {
-        scene.verify().unwrap_or_else(|error| panic!("what was built is right: {error}"));
-        ask(&scene, &mut draw);
-    }
+    run::<f32>(data);
 }
 
 /// Of f64 vertices.
 pub fn f64(data: &[u8]) {
+    run::<f64>(data);
+}
+
+fn run<T: Precision>(data: &[u8]) {
     let mut draw = Draw::new(data);
-    let mesh = draw.mesh::<f64>();
+    let mesh = draw.mesh::<T>();
     if let Some(scene) = built(mesh, &mut draw) {
         ask(&scene, &mut draw);
     }
@@ -44,8 +43,8 @@ pub fn built<T: Precision>(mesh: TriangleMesh<T>, draw: &mut Draw<'_>) -> Option
         }
         Err(error) => panic!("{error}: {options:?}"),
     };
-    let valid = scene.tree().validate(scene.mesh());
-    assert!(valid.is_ok(), "{valid:?} by {options:?}");
+    let right = scene.verify();
+    assert!(right.is_ok(), "{right:?} by {options:?}");
     Some(scene)
 }
 

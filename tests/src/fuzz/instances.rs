@@ -2,17 +2,21 @@
 
 use super::build_and_query::built;
 use super::draw::Draw;
-use kdray::{Instance, InstanceHit, InstancedScene, Ray};
+use kdray::{Instance, InstanceHit, InstancedScene, Precision, Ray};
 
 /// Runs an input.
 pub fn run(data: &[u8]) {
     let mut draw = Draw::new(data);
+    if draw.bit() { ask::<f64>(&mut draw) } else { ask::<f32>(&mut draw) }
+}
+
+fn ask<T: Precision>(draw: &mut Draw<'_>) {
     let mut geometries = Vec::new();
     for _ in 0..=draw.below(2) {
-        let mesh = draw.mesh::<f32>();
-        geometries.extend(built(mesh, &mut draw));
+        let mesh = draw.mesh::<T>();
+        geometries.extend(built(mesh, draw));
     }
-    let instances: Vec<_> = (0..draw.below(12)).map(|_| instance(&mut draw)).collect();
+    let instances: Vec<_> = (0..draw.below(12)).map(|_| instance(draw)).collect();
     // A matrix may be refused, and a geometry may not be there.
     let Ok(scene) = InstancedScene::build(geometries, instances) else { return };
     let scene = if draw.bit() { scene.with_mask(draw.byte().into()) } else { scene };
@@ -48,7 +52,7 @@ fn instance(draw: &mut Draw<'_>) -> Instance {
     }
 }
 
-fn check(scene: &InstancedScene, ray: &Ray) {
+fn check<T: Precision>(scene: &InstancedScene<T>, ray: &Ray) {
     let closest = scene.closest_hit(ray);
     assert_eq!(scene.any_hit(ray), closest.is_some(), "{ray:?}");
     let touched: Vec<_> = scene.all_touched(ray).collect();
@@ -61,7 +65,7 @@ fn check(scene: &InstancedScene, ray: &Ray) {
     assert_eq!(closest, touched.first().copied(), "{ray:?}");
 }
 
-fn check_hit(scene: &InstancedScene, ray: &Ray, found: &InstanceHit) {
+fn check_hit<T: Precision>(scene: &InstancedScene<T>, ray: &Ray, found: &InstanceHit) {
     let InstanceHit { hit, instance_id, geometry_id } = found;
     let in_interval = (ray.interval.t_min..=ray.interval.t_max).contains(&hit.t);
     assert!(hit.t.is_finite() && in_interval, "{hit:?} of {ray:?}");

@@ -5,20 +5,24 @@ use super::draw::Draw;
 use crate::points::{corners, naive_closest_point};
 use kdray::exact::{is_on_triangle, segment_crosses};
 use kdray::primitives::HitRule;
-use kdray::{Closure, Ray, Scene, Side};
+use kdray::{Closure, Precision, Ray, Scene, Side};
 
 /// Runs an input.
 pub fn run(data: &[u8]) {
     let mut draw = Draw::new(data);
-    let mesh = draw.mesh::<f32>();
-    let Some(scene) = built(mesh, &mut draw) else { return };
+    if draw.bit() { ask::<f64>(&mut draw) } else { ask::<f32>(&mut draw) }
+}
+
+fn ask<T: Precision>(draw: &mut Draw<'_>) {
+    let mesh = draw.mesh::<T>();
+    let Some(scene) = built(mesh, draw) else { return };
     let mut last = [0.0; 3];
     for _ in 0..8 {
         let point = draw.aim(scene.mesh());
         check_nearest(&scene, point);
         check_inside(&scene, point);
         check_visible(&scene, last, point);
-        check_thickness(&scene, &mut draw);
+        check_thickness(&scene, draw);
         last = point;
         if !draw.has_more() {
             break;
@@ -26,7 +30,7 @@ pub fn run(data: &[u8]) {
     }
 }
 
-fn check_nearest(scene: &Scene, point: [f64; 3]) {
+fn check_nearest<T: Precision>(scene: &Scene<T>, point: [f64; 3]) {
     let nearest = scene.closest_point(point);
     assert_eq!(nearest, naive_closest_point(scene.mesh(), point), "{point:?}");
     let distance = nearest.map(|nearest| nearest.distance);
@@ -38,12 +42,12 @@ fn check_nearest(scene: &Scene, point: [f64; 3]) {
     }
 }
 
-fn is_on_surface(scene: &Scene, point: [f64; 3]) -> bool {
+fn is_on_surface<T: Precision>(scene: &Scene<T>, point: [f64; 3]) -> bool {
     let mut ids = 0..scene.mesh().triangles().len() as u32;
     ids.any(|id| is_on_triangle(point, corners(scene.mesh(), id)))
 }
 
-fn check_inside(scene: &Scene, point: [f64; 3]) {
+fn check_inside<T: Precision>(scene: &Scene<T>, point: [f64; 3]) {
     let inside = scene.contains(point);
     let winding = scene.winding_number(point);
     assert!(winding.is_finite(), "{winding} at {point:?}");
@@ -65,7 +69,7 @@ fn check_inside(scene: &Scene, point: [f64; 3]) {
     }
 }
 
-fn check_visible(scene: &Scene, from: [f64; 3], to: [f64; 3]) {
+fn check_visible<T: Precision>(scene: &Scene<T>, from: [f64; 3], to: [f64; 3]) {
     let visible = scene.visible(from, to);
     assert_eq!(scene.visible(to, from), visible, "{from:?} {to:?}");
     if (0..3).all(|k| (to[k] - from[k]).is_finite()) {
@@ -77,7 +81,7 @@ fn check_visible(scene: &Scene, from: [f64; 3], to: [f64; 3]) {
     }
 }
 
-fn check_thickness(scene: &Scene, draw: &mut Draw<'_>) {
+fn check_thickness<T: Precision>(scene: &Scene<T>, draw: &mut Draw<'_>) {
     let id = draw.below(64) as u32;
     let [u, v] = [(); 2].map(|()| draw.wild());
     for side in [Side::Front, Side::Back] {

@@ -6,7 +6,7 @@ use crate::meshes;
 use crate::rays::random;
 use flate2::Compression;
 use flate2::write::GzEncoder;
-use kdray::{BuildOptions, Scene, Strategy, TriangleMesh};
+use kdray::{BuildOptions, Precision, Scene, Strategy, TriangleMesh};
 use rand::RngExt;
 use std::convert::Infallible;
 use std::io::Write;
@@ -251,10 +251,12 @@ pub fn tree_file() -> Vec<Vec<u8>> {
     let meshes = [meshes::soup(5, [0.0; 3], 1.0, 1), meshes::boxes(1), Vec::new()];
     let options = [BuildOptions::default(), BuildOptions::for_strategy(Strategy::Sah)];
     let scenes = meshes.iter().flat_map(|soup| options.map(|it| (meshes::mesh(soup.clone()), it)));
-    scenes.map(|(mesh, options)| saved(mesh, &options)).collect()
+    let mut files: Vec<_> = scenes.map(|(mesh, options)| saved(mesh, &options)).collect();
+    files.push(saved(meshes::mesh_in_f64(&meshes::mesh(meshes::grid(2, 1))), &options[0]));
+    files
 }
 
-fn saved(mesh: TriangleMesh, options: &BuildOptions) -> Vec<u8> {
+fn saved<T: Precision>(mesh: TriangleMesh<T>, options: &BuildOptions) -> Vec<u8> {
     let scene = Scene::build(mesh, options).expect("a small mesh");
     let mut bytes = Vec::new();
     let written = scene.save(|piece| {

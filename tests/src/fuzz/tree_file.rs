@@ -5,13 +5,14 @@ use kdray::file::{HEADER_BYTES, file_bytes};
 use kdray::geometry::RayPacket;
 use kdray::memory::{AlignedBytes, SharedBytes};
 use kdray::primitives::{HitArrays, HitRule};
-use kdray::{Arithmetic, Hit, Ray, Scene, Side};
+use kdray::{Arithmetic, Hit, Precision, Ray, Scene, Side};
 use std::sync::Arc;
 use twox_hash::XxHash3_64;
 
-/// A file, and behind it what rays to ask about are drawn from.
+/// A file of either precision, and behind it what rays to ask about are drawn from.
 pub fn run(data: &[u8]) {
-    open(data);
+    open::<f32>(data);
+    open::<f64>(data);
     let mut sealed = data.to_vec();
     seal(&mut sealed);
     if let Ok(length) = file_bytes(&sealed)
@@ -20,9 +21,11 @@ pub fn run(data: &[u8]) {
     {
         let rest = sealed.split_off(length);
         seal(&mut sealed);
-        open_and_ask(&sealed, &rest);
+        open_and_ask::<f32>(&sealed, &rest);
+        open_and_ask::<f64>(&sealed, &rest);
     } else {
-        open(&sealed);
+        open::<f32>(&sealed);
+        open::<f64>(&sealed);
     }
 }
 
@@ -41,15 +44,15 @@ fn shared(file: &[u8]) -> SharedBytes {
     Arc::new(AlignedBytes::from(file))
 }
 
-fn open(file: &[u8]) {
-    if Scene::open(shared(file)).is_err() {
-        assert!(Scene::load(shared(file)).is_err(), "what cannot be opened is not loaded");
+fn open<T: Precision>(file: &[u8]) {
+    if Scene::<T>::open(shared(file)).is_err() {
+        assert!(Scene::<T>::load(shared(file)).is_err(), "what cannot be opened is not loaded");
     }
 }
 
-fn open_and_ask(file: &[u8], rest: &[u8]) {
-    let opened = Scene::open(shared(file));
-    let loaded = Scene::load(shared(file));
+fn open_and_ask<T: Precision>(file: &[u8], rest: &[u8]) {
+    let opened = Scene::<T>::open(shared(file));
+    let loaded = Scene::<T>::load(shared(file));
     let Ok(opened) = opened else {
         assert!(loaded.is_err(), "what cannot be opened is not loaded");
         return;
@@ -70,7 +73,7 @@ fn open_and_ask(file: &[u8], rest: &[u8]) {
 }
 
 /// Asks for everything; whatever the answer is, it names triangles that are there.
-fn ask(scene: &Scene, ray: &Ray) {
+fn ask<T: Precision>(scene: &Scene<T>, ray: &Ray) {
     let float = scene.clone().with_arithmetic(Arithmetic::Float);
     for scene in [scene, &float] {
         let _ = scene.any_hit(ray);
@@ -93,7 +96,7 @@ fn ask(scene: &Scene, ray: &Ray) {
     ask_about_points(scene, ray);
 }
 
-fn ask_about_points(scene: &Scene, ray: &Ray) {
+fn ask_about_points<T: Precision>(scene: &Scene<T>, ray: &Ray) {
     let end = ray.at(1.0);
     for point in [ray.origin, end] {
         let _ = (scene.contains(point), scene.signed_distance(point), scene.winding_number(point));
@@ -102,7 +105,7 @@ fn ask_about_points(scene: &Scene, ray: &Ray) {
     let _ = scene.visible(ray.origin, end);
 }
 
-fn ask_packet(scene: &Scene) {
+fn ask_packet<T: Precision>(scene: &Scene<T>) {
     let bounds = scene.tree().bounds();
     let at = |axis: usize, share: f64| {
         let [min, max] = [bounds.min[axis], bounds.max[axis]].map(f64::from);
@@ -120,14 +123,14 @@ fn ask_packet(scene: &Scene) {
     (0..packet.len()).for_each(|index| assert_known(scene, hits.get(index)));
 }
 
-fn assert_known(scene: &Scene, hit: Option<Hit>) {
+fn assert_known<T: Precision>(scene: &Scene<T>, hit: Option<Hit>) {
     if let Some(hit) = hit {
         assert!((hit.primitive_id as usize) < scene.mesh().triangles().len(), "{hit:?}");
     }
 }
 
 /// What was verified gives the hits of its mesh.
-fn check(scene: &Scene, ray: &Ray) {
+fn check<T: Precision>(scene: &Scene<T>, ray: &Ray) {
     let naive = scene.shapes().naive();
     assert_eq!(scene.shapes().closest_hit(ray), naive.closest_hit(ray), "leaf walk, {ray:?}");
     assert_eq!(scene.closest_hit(ray), naive.closest_hit(ray), "{ray:?}");
