@@ -25,6 +25,10 @@ pub(crate) struct Options {
     /// Only targets whose names contain one of these, separated by commas.
     #[arg(long, value_delimiter = ',')]
     targets: Vec<String>,
+    /// What watches memory: none, for all but one call of what kdray is made of is safe Rust, or address, which
+    /// takes much longer to compile.
+    #[arg(long, default_value = "none")]
+    sanitizer: String,
     /// Instead make the corpora in the repository anew, of what was found so far, as small as covers the same.
     #[arg(long)]
     keep: bool,
@@ -38,7 +42,7 @@ pub(crate) fn run(options: &Options) -> Result<(), String> {
     programs::check_tools()?;
     let folders = Folders::new();
     let targets = chosen(programs::targets(&folders)?, &options.targets)?;
-    programs::build(&folders)?;
+    programs::build(&folders, &options.sanitizer)?;
     let stop = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&stop);
     // The program that is running gets the signal as well, and ends in order.

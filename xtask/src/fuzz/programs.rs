@@ -47,16 +47,16 @@ impl Target {
     }
 }
 
-/// Compiles the programs. The flags that they need are unstable ones, also where rustc is stable.
-pub(super) fn build(folders: &Folders) -> Result<(), String> {
+/// Compiles the programs, with checks of overflow and all assertions. The flags that they need are unstable ones,
+/// also where rustc is stable.
+pub(super) fn build(folders: &Folders, sanitizer: &str) -> Result<(), String> {
     let mut steps = Steps::new();
     let home = folders.home().display().to_string();
     let target = folders.target().display().to_string();
-    // As one piece, which is what cargo-fuzz would do, the kernels take several times as long to compile.
-    let pieces = ["--codegen-units", "16"];
-    let folders = ["fuzz", "build", "--fuzz-dir", &home, "--target-dir", &target];
-    let arguments = [&folders[..], &pieces].concat().into_iter().map(str::to_owned);
-    let arguments: Vec<_> = arguments.collect();
+    let places = ["fuzz", "build", "--fuzz-dir", &home, "--target-dir", &target];
+    // One piece, which is what cargo-fuzz would make, takes longer to compile.
+    let how = ["--codegen-units", "16", "--sanitizer", sanitizer];
+    let arguments: Vec<_> = places.into_iter().chain(how).map(str::to_owned).collect();
     steps.cargo_with("programs", &arguments, &[("RUSTC_BOOTSTRAP", "1")])
 }
 
