@@ -7,12 +7,14 @@ mod attack;
 mod bench;
 mod fuzz;
 mod lint;
+mod package;
 mod parity;
 mod peers;
 mod pixels;
 mod python;
 mod steps;
 mod test;
+mod venv;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;

@@ -112,6 +112,11 @@ pub(crate) fn target_folder() -> PathBuf {
     chosen.unwrap_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../target"))
 }
 
+/// What is wrong with a file.
+pub(crate) fn told(path: &Path, error: &std::io::Error) -> String {
+    format!("{}: {error}", path.display())
+}
+
 /// Tells the person at the terminal.
 #[expect(clippy::print_stderr, reason = "a chore's progress belongs on standard error")]
 pub(crate) fn say(line: &str) {

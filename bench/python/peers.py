@@ -4,7 +4,6 @@ Called with the folder of the cases. For each case and peer it writes the answer
 they took of this thread's processor time, as `bench/src/peers` does for others. All on one thread.
 """
 
-import ctypes
 import importlib.metadata
 import json
 import os
@@ -15,21 +14,18 @@ from pathlib import Path
 
 os.environ["OMP_NUM_THREADS"] = "1"
 
+import libraries
 import numpy as np
+from libraries import say
 
 ROUNDS = 3
 
 
 def open3d():
     """Open3D's RaycastingScene, which runs on Embree in its robust mode."""
-    try:
-        # Open3D needs libusb, which few machines have installed.
-        import libusb_package
-
-        ctypes.CDLL(str(libusb_package.get_library_path()), ctypes.RTLD_GLOBAL)
-        import open3d as o3d
-    except (ImportError, OSError) as error:
-        return say(f"going on without Open3D: {error}")
+    o3d = libraries.open3d()
+    if o3d is None:
+        return None
 
     def queries(vertices, triangles, rays):
         scene = o3d.t.geometry.RaycastingScene(nthreads=1)
@@ -51,12 +47,10 @@ def open3d():
 
 def trimesh():
     """trimesh on Embree; it finds all hits by casting rays again from behind each hit."""
-    try:
-        import embreex  # noqa: F401
-        import trimesh as package
-        from trimesh.ray.ray_pyembree import RayMeshIntersector
-    except (ImportError, OSError) as error:
-        return say(f"going on without trimesh: {error}")
+    package = libraries.trimesh()
+    if package is None:
+        return None
+    from trimesh.ray.ray_pyembree import RayMeshIntersector
 
     def queries(vertices, triangles, rays):
         mesh = package.Trimesh(vertices, triangles, process=False, validate=False)
@@ -108,10 +102,6 @@ def write(folder, query, answer):
         splits, t = answer
         np.save(folder / "splits.npy", np.asarray(splits, "<u8"))
         np.save(folder / "t.npy", np.asarray(t, "<f4"))
-
-
-def say(line):
-    print(line, file=sys.stderr)
 
 
 def main(folder):
