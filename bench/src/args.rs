@@ -123,6 +123,9 @@ pub(crate) struct Scaling {
 pub(crate) struct Peers {
     /// The folder of the cases, each a folder of its own.
     pub(crate) folder: PathBuf,
+    /// Only these, by their names in the bench, separated by commas; all without it.
+    #[arg(long, value_delimiter = ',', value_name = "NAME")]
+    pub(crate) peers: Vec<String>,
 }
 
 fn numbers(text: &str) -> Result<[f64; 3], String> {

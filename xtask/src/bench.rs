@@ -1,5 +1,6 @@
 //! `cargo xtask bench`.
 
+use crate::python_bench;
 use crate::steps::Steps;
 use clap::Args;
 
@@ -11,8 +12,13 @@ pub(crate) struct Options {
     arguments: Vec<String>,
 }
 
-/// Builds and runs the bench.
+/// Builds and runs the bench, or that of the Python package.
 pub(crate) fn run(options: Options) -> Result<(), String> {
+    if let Some((first, rest)) = options.arguments.split_first()
+        && first == "python"
+    {
+        return python_bench::run(rest);
+    }
     let run = ["run", "--release", "-p", "kdray-bench", "--"];
     let arguments = run.into_iter().map(str::to_owned).chain(options.arguments).collect::<Vec<_>>();
     Steps::new().cargo_with("comparison", &arguments, &[])

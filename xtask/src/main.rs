@@ -12,6 +12,7 @@ mod parity;
 mod peers;
 mod pixels;
 mod python;
+mod python_bench;
 mod steps;
 mod test;
 mod venv;
@@ -44,7 +45,8 @@ enum Task {
     Attack(attack::Options),
     /// Every loader, tree files, builds and queries on inputs that a fuzzer makes up; needs cargo-fuzz.
     Fuzz(fuzz::Options),
-    /// kdray beside Embree and other libraries: rays a second, build times, memory, wrong answers.
+    /// kdray beside Embree and other libraries: rays a second, build times, memory, wrong answers. With `python`
+    /// the Python package beside trimesh and Open3D.
     #[command(disable_help_flag = true)]
     Bench(bench::Options),
     /// Pictures of real scenes: every strategy must give the same, byte for byte.

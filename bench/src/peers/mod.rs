@@ -34,19 +34,16 @@ const PEERS: [(&str, &str, &str); 7] = [
 
 /// Answers all cases of a folder.
 pub(crate) fn run(options: &Peers) -> Result<(), BenchError> {
-    let embree = match Embree::fetch(&work_folder()) {
-        Ok(embree) => Some(embree),
-        Err(error) => {
-            say(&format!("{error}\ngoing on without Embree"));
-            None
-        }
-    };
+    let is_asked =
+        |name: &str| options.peers.is_empty() || options.peers.iter().any(|it| it == name);
+    let asked: Vec<_> = PEERS.into_iter().filter(|(name, ..)| is_asked(name)).collect();
+    let embree = asked.iter().any(|(_, package, _)| *package == "embree").then(fetch).flatten();
     let version = embree.as_ref().map(Embree::version).transpose()?;
     let machine = Machine::here(version);
     let list = contenders::all(embree.as_ref());
     for case in Case::all(&options.folder)? {
         say(&format!("{}: {} rays", case.name, case.rays.len()));
-        for (name, package, label) in PEERS {
+        for &(name, package, label) in &asked {
             let chosen =
                 list.iter().flat_map(|it| it.kernels().iter().map(move |kernel| (it, kernel)));
             let mut chosen = chosen.filter(|(it, kernel)| full_name(it.as_ref(), kernel) == name);
@@ -57,6 +54,11 @@ pub(crate) fn run(options: &Peers) -> Result<(), BenchError> {
         }
     }
     Ok(())
+}
+
+fn fetch() -> Option<Embree> {
+    let embree = Embree::fetch(&work_folder());
+    embree.inspect_err(|error| say(&format!("{error}\ngoing on without Embree"))).ok()
 }
 
 /// All that a peer can answer.
