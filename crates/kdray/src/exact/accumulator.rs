@@ -1,6 +1,7 @@
 //! Sums of products without rounding (Kulisch 1971: the long accumulator).
 
 use std::cmp::Ordering;
+use std::ops::Range;
 
 /// Limbs of 64 bits. The products of three f64 span 2^-3222 to 2^3072; what is left above holds
 /// the carries of more terms than anyone adds.
@@ -9,11 +10,16 @@ const LIMBS: usize = 100;
 /// The power of two that the lowest bit stands for: three times that of the smallest f64.
 const LOWEST: i32 = -3222;
 
-/// A fixed-point number in two's complement, wide enough for every sum of products of up to three
-/// finite f64 numbers.
+/// A fixed-point number, wide enough for every sum of products of up to three finite f64 numbers.
+///
+/// What is added and what is subtracted are summed apart, so that no borrow runs through all limbs whenever
+/// the sum changes its sign. Only the limbs that a term has reached are looked at.
 #[derive(Clone)]
 pub struct Accumulator {
-    limbs: [u64; LIMBS],
+    added: [u64; LIMBS],
+    subtracted: [u64; LIMBS],
+    /// All other limbs are zero.
+    used: Range<usize>,
 }
 
 /// A number `mantissa · 2^exponent` whose exponent may be beyond that of an f64.
@@ -27,7 +33,7 @@ pub struct Scaled {
 
 impl Default for Accumulator {
     fn default() -> Self {
-        Self { limbs: [0; LIMBS] }
+        Self { added: [0; LIMBS], subtracted: [0; LIMBS], used: 0..0 }
     }
 }
 
@@ -52,17 +58,19 @@ impl Accumulator {
 
     /// Adds another sum.
     pub fn add_all(&mut self, other: &Self) {
-        let mut carry = false;
-        for (place, part) in self.limbs.iter_mut().zip(other.limbs) {
-            let (once, first) = place.overflowing_add(part);
-            let (twice, second) = once.overflowing_add(u64::from(carry));
-            (*place, carry) = (twice, first | second);
-        }
+        self.add_limbs(&other.added, &other.subtracted, &other.used);
     }
 
     /// Subtracts another sum.
     pub fn subtract_all(&mut self, other: &Self) {
-        self.add_all(&other.negated());
+        self.add_limbs(&other.subtracted, &other.added, &other.used);
+    }
+
+    fn add_limbs(&mut self, added: &[u64; LIMBS], subtracted: &[u64; LIMBS], used: &Range<usize>) {
+        for (sum, parts) in [(&mut self.added, added), (&mut self.subtracted, subtracted)] {
+            let top = add_at(sum, used.start, parts.get(used.clone()).unwrap_or_default());
+            widen(&mut self.used, used.start..top);
+        }
     }
 
     /// Adds or subtracts `number · 2^shift` units of the lowest bit.
@@ -71,68 +79,79 @@ impl Accumulator {
         let [n0, n1, n2] = number;
         let spill = |n: u64| if bits == 0 { 0 } else { n >> (64 - bits) };
         let shifted = [n0 << bits, n1 << bits | spill(n0), n2 << bits | spill(n1), spill(n2)];
-        let mut carry = false;
-        for (index, place) in self.limbs[limb..].iter_mut().enumerate() {
-            let part = shifted.get(index).copied().unwrap_or(0);
-            if index >= shifted.len() && !carry {
-                break;
-            }
-            (*place, carry) = if negative {
-                let (once, first) = place.overflowing_sub(part);
-                let (twice, second) = once.overflowing_sub(u64::from(carry));
-                (twice, first | second)
-            } else {
-                let (once, first) = place.overflowing_add(part);
-                let (twice, second) = once.overflowing_add(u64::from(carry));
-                (twice, first | second)
-            };
-        }
+        let sum = if negative { &mut self.subtracted } else { &mut self.added };
+        let top = add_at(sum, limb, &shifted);
+        widen(&mut self.used, limb..top);
     }
 
     /// The sum's sign: how it compares with zero.
     pub fn sign(&self) -> Ordering {
-        if self.is_negative() {
-            Ordering::Less
-        } else if self.limbs.iter().any(|&limb| limb != 0) {
-            Ordering::Greater
-        } else {
-            Ordering::Equal
-        }
-    }
-
-    fn is_negative(&self) -> bool {
-        self.limbs[LIMBS - 1] >> 63 == 1
+        let places = self.used.clone().rev();
+        let orders = places.map(|i| self.added[i].cmp(&self.subtracted[i]));
+        orders.fold(Ordering::Equal, Ordering::then)
     }
 
     /// The sum, rounded to nearest.
     pub fn value(&self) -> Scaled {
-        let negative = self.is_negative();
-        let magnitude = if negative { self.negated() } else { self.clone() };
-        let Some(top) = magnitude.limbs.iter().rposition(|&limb| limb != 0) else {
+        let negative = self.sign() == Ordering::Less;
+        let magnitude = self.magnitude(negative);
+        let Some(top) = self.used.clone().rev().find(|&place| magnitude[place] != 0) else {
             return Scaled { mantissa: 0.0, exponent: 0 };
         };
-        let limb = |below: usize| top.checked_sub(below).map_or(0, |i| magnitude.limbs[i]);
+        let limb = |below: usize| top.checked_sub(below).map_or(0, |place| magnitude[place]);
         let zeros = limb(0).leading_zeros();
         let upper = (u128::from(limb(0)) << 64 | u128::from(limb(1))) << zeros;
         let head = upper | (u128::from(limb(2)) << zeros >> 64);
         // All that lies below only matters to rounding as "a little more": the sticky bit.
-        let sticky = magnitude.limbs[..top.saturating_sub(1)].iter().any(|&limb| limb != 0);
+        let below = self.used.start..top.saturating_sub(1).max(self.used.start);
+        let sticky = magnitude[below].iter().any(|&limb| limb != 0);
         let mantissa = (head | u128::from(sticky)) as f64;
         let exponent = 64 * (top as i32 - 1) - zeros as i32 + LOWEST;
         Scaled { mantissa: if negative { -mantissa } else { mantissa }, exponent }
     }
 
-    fn negated(&self) -> Self {
-        let mut limbs = self.limbs.map(|limb| !limb);
-        for limb in &mut limbs {
-            let carry;
-            (*limb, carry) = limb.overflowing_add(1);
-            if !carry {
-                break;
-            }
+    /// The sum without its sign, which is given.
+    fn magnitude(&self, negative: bool) -> [u64; LIMBS] {
+        let (more, less) = match negative {
+            true => (&self.subtracted, &self.added),
+            false => (&self.added, &self.subtracted),
+        };
+        let (mut magnitude, mut borrow) = ([0; LIMBS], false);
+        for place in self.used.clone() {
+            let (once, first) = more[place].overflowing_sub(less[place]);
+            let (twice, second) = once.overflowing_sub(u64::from(borrow));
+            (magnitude[place], borrow) = (twice, first | second);
         }
-        Self { limbs }
+        magnitude
     }
+}
+
+/// Makes a range hold another one, too.
+#[inline]
+fn widen(range: &mut Range<usize>, other: Range<usize>) {
+    let has_none = |range: &Range<usize>| range.start == range.end;
+    if has_none(range) {
+        *range = other;
+    } else if !has_none(&other) {
+        *range = range.start.min(other.start)..range.end.max(other.end);
+    }
+}
+
+/// Adds limbs at a place; where the carry ended.
+#[inline]
+fn add_at(sum: &mut [u64; LIMBS], start: usize, parts: &[u64]) -> usize {
+    let (mut end, mut carry) = (start, false);
+    for (place, part) in sum[start..].iter_mut().zip(parts) {
+        let (once, first) = place.overflowing_add(*part);
+        let (twice, second) = once.overflowing_add(u64::from(carry));
+        (*place, carry) = (twice, first | second);
+        end += 1;
+    }
+    while carry {
+        (sum[end], carry) = sum[end].overflowing_add(1);
+        end += 1;
+    }
+    end
 }
 
 impl From<f64> for Scaled {

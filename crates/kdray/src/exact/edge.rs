@@ -1,7 +1,7 @@
 //! Edge functions, exactly.
 
 use super::Accumulator;
-use super::lattice::on_lattice;
+use super::lattice::{on_lattice, sign_of_products};
 use crate::geometry::Ray;
 use std::cmp::Ordering;
 
@@ -19,12 +19,13 @@ pub fn edge_function(ray: &Ray<3>, p: [f64; 3], q: [f64; 3]) -> Accumulator {
 /// The sign of [`edge_function`].
 pub fn edge_sign(ray: &Ray<3>, p: [f64; 3], q: [f64; 3]) -> Ordering {
     let in_integers = || {
-        let d = on_lattice(ray.direction)?.map(i128::from);
+        let d = on_lattice(ray.direction)?;
         let [p, q] = around_origin(ray.origin, p, q)?;
         let minor = |i: usize, j: usize| q[i] * p[j] - q[j] * p[i];
-        Some(d[0] * minor(1, 2) + d[1] * minor(2, 0) + d[2] * minor(0, 1))
+        let pairs = [(d[0], minor(1, 2)), (d[1], minor(2, 0)), (d[2], minor(0, 1))];
+        Some(sign_of_products(pairs))
     };
-    in_integers().map_or_else(|| edge_function(ray, p, q).sign(), |sum| sum.cmp(&0))
+    in_integers().unwrap_or_else(|| edge_function(ray, p, q).sign())
 }
 
 /// p' and q' in the same integer proportions; `None` if the numbers have too many digits.
@@ -151,14 +152,17 @@ mod tests {
     }
 
     proptest::proptest! {
-        /// Numbers of a few bits, whose signs are often zero, and of all, which have no lattice.
+        /// Numbers of a few bits, whose signs are often zero, of many, and of all, which have no lattice.
         #[test]
         fn the_sign_is_that_of_the_sum(
             numbers in proptest::array::uniform12(-9_i32..10),
+            shifts in proptest::array::uniform12(0_i32..58),
+            is_shifted in proptest::bool::ANY,
             scales in proptest::array::uniform2(-600_i32..600),
             more in proptest::option::of(0_usize..12),
         ) {
-            let mut all = numbers.map(f64::from);
+            let shift = |i: usize| if is_shifted { 2.0_f64.powi(shifts[i]) } else { 1.0 };
+            let mut all: [f64; 12] = std::array::from_fn(|i| f64::from(numbers[i]) * shift(i));
             all[..3].iter_mut().for_each(|x| *x *= 2.0_f64.powi(scales[0]));
             all[3..].iter_mut().for_each(|x| *x *= 2.0_f64.powi(scales[1]));
             if let Some(place) = more {

@@ -1,13 +1,15 @@
 //! Numbers of few digits, as integers: the short way to exact signs.
 
-/// As many bits as coordinates may have: their differences have one more, products of two differences 83, those
-/// with a direction's component 123, and the sum of three of these fits 127.
-const BITS: i32 = 40;
+use std::cmp::Ordering;
+
+/// As many bits as coordinates may have: their differences have one more, and what the differences of two products
+/// of these come to fits 124.
+const BITS: i32 = 60;
 
 /// Far from overflow and underflow.
 const SIZES: std::ops::Range<f64> = 1e-200..1e200;
 
-/// The numbers times a power of two that they share and that makes all of them integers below 2^40; `None`
+/// The numbers times a power of two that they share and that makes all of them integers below 2^60; `None`
 /// if there is none, or their size is out of the ordinary.
 ///
 /// Corners in f32, and rays that were made of f32, mostly have one. Where rays are aimed at vertices and along edges,
@@ -36,6 +38,22 @@ pub(super) fn on_lattice<const N: usize>(numbers: [f64; N]) -> Option<[i64; N]> 
     Some(integers)
 }
 
+/// The sign of the sum of products: of integers below 2^60 with others below 2^124. Of products in two parts, for
+/// they have 184 bits.
+#[inline]
+pub(super) fn sign_of_products(pairs: [(i64, i128); 3]) -> Ordering {
+    const LOW: i128 = (1 << BITS) - 1;
+    let (mut high, mut low) = (0, 0);
+    for (a, b) in pairs {
+        let a = i128::from(a);
+        high += a * (b >> BITS);
+        low += a * (b & LOW);
+    }
+    // The sum is high · 2^60 + low, of which low gets the same sign or zero: from 0 to 2^60.
+    high += low >> BITS;
+    high.cmp(&0).then((low & LOW).cmp(&0))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -54,8 +72,21 @@ mod tests {
     }
 
     #[test]
+    fn products_of_many_digits_have_their_sign() {
+        let (a, b) = ((1_i64 << BITS) - 1, (1_i128 << 124) - 1);
+        let equal = Ordering::Equal;
+        assert_eq!(sign_of_products([(a, b), (-a, b), (0, b)]), equal);
+        assert_eq!(sign_of_products([(a, b), (-a, b - 1), (0, 1)]), Ordering::Greater);
+        assert_eq!(sign_of_products([(a, b), (-a, b), (-1, 1)]), Ordering::Less);
+        assert_eq!(sign_of_products([(-a, b), (-a, b), (-a, b)]), Ordering::Less);
+        assert_eq!(sign_of_products([(a, b), (a, b), (a, b)]), Ordering::Greater);
+        // 2^60 · 1 against 1 · 2^60, of which each is in another part.
+        assert_eq!(sign_of_products([(1, 1 << BITS), (1 << (BITS - 1), -2), (0, 0)]), equal);
+    }
+
+    #[test]
     fn what_has_more_digits_is_left_alone() {
-        assert_eq!(on_lattice([1.0, 1.0 / 3.0]), None);
+        assert_eq!(on_lattice([1.0, 1e-9 / 3.0]), None);
         assert_eq!(on_lattice([1.0, 2.0_f64.powi(-BITS)]), None);
         assert!(on_lattice([1.0, 2.0_f64.powi(1 - BITS)]).is_some());
         for x in [2.0_f64.powi(300), 2.0_f64.powi(600)] {
