@@ -1,6 +1,6 @@
 //! Which parts of a mesh are closed surfaces.
 
-use kdray::TriangleMesh;
+use kdray::{Coordinate, TriangleMesh};
 use std::collections::{HashMap, HashSet};
 
 /// The triangles of a mesh that belong to closed components, as a mesh of its own.
@@ -33,8 +33,10 @@ pub fn closed_part(mesh: &TriangleMesh) -> TriangleMesh {
 
 /// Whether a ray without end from outside of the box of `mesh` crosses it an even number of times, however
 /// it lies: if every edge has an even number of triangles, vertices at the same position taken as one.
-pub fn is_closed(mesh: &TriangleMesh) -> bool {
-    let place = |vertex: u32| mesh.vertices()[vertex as usize].map(|x| (x + 0.0).to_bits());
+pub fn is_closed<T: Coordinate>(mesh: &TriangleMesh<T>) -> bool {
+    // Adding zero makes the two zeros one.
+    let place =
+        |vertex: u32| mesh.vertices()[vertex as usize].map(|x| (x.to_f64() + 0.0).to_bits());
     let mut odd = HashSet::new();
     for triangle in mesh.triangles() {
         for (a, b) in sides(triangle).map(|(a, b)| (place(a), place(b))) {
@@ -69,7 +71,7 @@ fn sides(&[a, b, c]: &[u32; 3]) -> [(u32, u32); 3] {
 }
 
 /// The vertices that triangles use, and the pairs of them that are edges, each once, in order.
-pub fn vertices_and_edges(mesh: &TriangleMesh) -> (Vec<u32>, Vec<(u32, u32)>) {
+pub fn vertices_and_edges<T: Coordinate>(mesh: &TriangleMesh<T>) -> (Vec<u32>, Vec<(u32, u32)>) {
     let mut vertices: Vec<u32> = mesh.triangles().iter().flatten().copied().collect();
     let all = mesh.triangles().iter().flat_map(sides);
     let mut edges: Vec<_> = all.map(|(a, b)| (a.min(b), a.max(b))).collect();

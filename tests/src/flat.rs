@@ -6,15 +6,20 @@
 //! of kdray's trees, boxes and traversals is used.
 
 use kdray::primitives::{HitRule, intersect_triangle};
-use kdray::{Hit, Ray, TriangleMesh};
+use kdray::{Coordinate, Hit, Ray, TriangleMesh};
 
 /// How many triangles share a bounding sphere, and how many spheres a larger one.
 const BLOCK: usize = 16;
 
+/// Sizes whose products of three neither over- nor underflow. Spheres around meshes of other sizes are scaled.
+const SIZES: std::ops::Range<f64> = 1e-45..1e45;
+
 /// A mesh laid out for testing all its triangles.
-pub struct Flat {
-    triangles: Vec<([[f32; 3]; 3], u32)>,
-    /// The spheres around each [`BLOCK`] triangles.
+pub struct Flat<T = f32> {
+    triangles: Vec<([[T; 3]; 3], u32)>,
+    /// The power of two that makes the largest coordinate one to two, if it is out of the ordinary; else one.
+    scale: f64,
+    /// The spheres around each [`BLOCK`] triangles, scaled.
     spheres: Vec<Sphere>,
     /// The spheres around each [`BLOCK`] spheres.
     outer_spheres: Vec<Sphere>,
@@ -26,13 +31,16 @@ struct Sphere {
     radius: f64,
 }
 
-impl Flat {
+impl<T: Coordinate> Flat<T> {
     /// Lays out a mesh.
-    pub fn new(mesh: &TriangleMesh) -> Self {
+    pub fn new(mesh: &TriangleMesh<T>) -> Self {
         let ids = 0..mesh.triangles().len() as u32;
         let mut triangles: Vec<_> = ids.map(|id| (mesh.corners(id), id)).collect();
-        let middle = |corners: &[[f32; 3]; 3]| {
-            let sum = |k: usize| corners.iter().map(|p| f64::from(p[k])).sum::<f64>() / 3.0;
+        let corners = triangles.iter().flat_map(|(corners, _)| corners.as_flattened());
+        let scale = scale_of(corners.fold(0.0, |most, x| most.max(x.to_f64().abs())));
+        let scaled = |p: &[T; 3]| p.map(|x| x.to_f64() * scale);
+        let middle = |corners: &[[T; 3]; 3]| {
+            let sum = |k: usize| corners.iter().map(|p| scaled(p)[k]).sum::<f64>() / 3.0;
             [sum(0), sum(1), sum(2)]
         };
         let (min, max) = ends(triangles.iter().map(|(corners, _)| middle(corners)));
@@ -41,14 +49,19 @@ impl Flat {
             .chunks(BLOCK)
             .map(|block| {
                 let corners = block.iter().flat_map(|(corners, _)| corners);
-                Sphere::around(corners.map(|p| (p.map(f64::from), 0.0)))
+                Sphere::around(corners.map(|p| (scaled(p), 0.0)))
             })
             .collect();
         let outer_spheres = spheres
             .chunks(BLOCK)
             .map(|block| Sphere::around(block.iter().map(|s| (s.center, s.radius))))
             .collect();
-        Self { triangles, spheres, outer_spheres }
+        Self { triangles, scale, spheres, outer_spheres }
+    }
+
+    /// The power of two that makes the largest coordinate one to two, if it is out of the ordinary; else one.
+    pub(crate) fn scale(&self) -> f64 {
+        self.scale
     }
 
     /// The hit of least t; of several at the same t, the one of the smallest id.
@@ -75,14 +88,40 @@ impl Flat {
     }
 
     /// Gives `look` the corners and ids of all triangles that the line of `ray` may meet, and of others.
-    pub(crate) fn each_candidate(&self, ray: &Ray<3>, mut look: impl FnMut(&[[f32; 3]; 3], u32)) {
-        let line = Line::of(ray);
+    pub(crate) fn each_candidate(&self, ray: &Ray<3>, look: impl FnMut(&[[T; 3]; 3], u32)) {
+        let line = Line::of(ray, self.scale);
+        self.each_where(|sphere| !line.is_clear_of(sphere), look);
+    }
+
+    /// Gives `look` the corners and ids of all triangles that may be as near to `point` as it last answered, and
+    /// of others.
+    pub(crate) fn each_near(
+        &self,
+        point: [f64; 3],
+        mut look: impl FnMut(&[[T; 3]; 3], u32) -> f64,
+    ) {
+        let center = point.map(|x| x * self.scale);
+        let reach = std::cell::Cell::new(f64::INFINITY);
+        let is_near = |sphere: &Sphere| {
+            let to_center = distance(sphere.center, center);
+            // Not if any of it is NaN or has overflowed.
+            let is_far = to_center * (1.0 - 1e-9) - sphere.radius > reach.get() * self.scale;
+            !(is_far && to_center < 1e150)
+        };
+        self.each_where(is_near, |corners, id| reach.set(look(corners, id)));
+    }
+
+    fn each_where(
+        &self,
+        is_wanted: impl Fn(&Sphere) -> bool,
+        mut look: impl FnMut(&[[T; 3]; 3], u32),
+    ) {
         for (outer, outer_sphere) in self.outer_spheres.iter().enumerate() {
-            if line.is_clear_of(outer_sphere) {
+            if !is_wanted(outer_sphere) {
                 continue;
             }
             for inner in chunk(outer, self.spheres.len()) {
-                if line.is_clear_of(&self.spheres[inner]) {
+                if !is_wanted(&self.spheres[inner]) {
                     continue;
                 }
                 for (corners, id) in &self.triangles[chunk(inner, self.triangles.len())] {
@@ -93,11 +132,19 @@ impl Flat {
     }
 }
 
+fn scale_of(largest: f64) -> f64 {
+    if largest == 0.0 || SIZES.contains(&largest) {
+        return 1.0;
+    }
+    // The largest f64 has the exponent 1023, and 2^-1023 has few digits, but its own.
+    let exponent = largest.log2().floor().clamp(-1022.0, 1022.0);
+    2.0_f64.powi(-exponent as i32)
+}
+
 /// The places of block `index` in a list of `len`.
 fn chunk(index: usize, len: usize) -> std::ops::Range<usize> {
     index * BLOCK..len.min((index + 1) * BLOCK)
 }
-
 /// The smallest and largest coordinates of points.
 fn ends(points: impl Iterator<Item = [f64; 3]>) -> ([f64; 3], [f64; 3]) {
     let none = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
@@ -140,11 +187,13 @@ struct Line {
 }
 
 impl Line {
-    /// Of a direction whose length cannot be told well, one of NaN, which is clear of nothing.
-    fn of(ray: &Ray<3>) -> Self {
-        let length = distance(ray.direction, [0.0; 3]);
-        let length = if (1e-140..1e140).contains(&length) { length } else { f64::NAN };
-        Self { origin: ray.origin, direction: ray.direction.map(|d| d / length) }
+    /// Of a direction of zeros, one of NaN, which is clear of nothing.
+    fn of(ray: &Ray<3>, scale: f64) -> Self {
+        let largest = ray.direction.iter().fold(0.0_f64, |most, d| most.max(d.abs()));
+        let direction = ray.direction.map(|d| d / largest);
+        let length = distance(direction, [0.0; 3]);
+        let origin = ray.origin.map(|x| x * scale);
+        Self { origin, direction: direction.map(|d| d / length) }
     }
 
     /// Whether the line surely passes the sphere by. The distance of its centre from the line errs

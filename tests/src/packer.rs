@@ -3,7 +3,7 @@
 use crate::owned_packet::OwnedPacket;
 use crate::rays::{Archer, random};
 use kdray::geometry::{Common, tile_order};
-use kdray::{Aabb, Coordinate, KdTree, Ray, TriangleMesh};
+use kdray::{Coordinate, KdTree, Ray, TriangleMesh};
 use rand::RngExt;
 use rand::seq::IndexedRandom;
 use rand_pcg::Pcg64Mcg;
@@ -28,9 +28,14 @@ impl<'a, T: Coordinate> Packer<'a, T> {
         Self { archer: Archer::new(mesh, seed), aimed, random: random(seed) }
     }
 
-    /// The same at a mesh whose bounds are known.
-    pub fn within(mesh: &'a TriangleMesh<T>, bounds: Aabb<3>, aimed: &'a [Ray], seed: u64) -> Self {
-        Self { archer: Archer::within(mesh, bounds, seed), aimed, random: random(seed) }
+    /// The same at a mesh whose [extent](crate::Subject::extent) is known.
+    pub fn within(
+        mesh: &'a TriangleMesh<T>,
+        extent: ([f64; 3], [f64; 3]),
+        aimed: &'a [Ray],
+        seed: u64,
+    ) -> Self {
+        Self { archer: Archer::within(mesh, extent, seed), aimed, random: random(seed) }
     }
 
     /// Packets of every kind and size, `each` of them; places are up to `farthest` diagonals away.

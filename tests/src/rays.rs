@@ -1,7 +1,7 @@
 //! Rays that are hard on purpose. All are seeded: the same on every run.
 
 use crate::Subject;
-use kdray::{Aabb, Interval, KdTree, Ray, tree::NodeKind};
+use kdray::{Interval, KdTree, Ray, tree::NodeKind};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
@@ -26,9 +26,8 @@ impl<'a, S: Subject<K>, const K: usize> Archer<'a, S, K> {
         Self { subject, min, max, random: random(seed) }
     }
 
-    /// The same for a subject whose bounds are known.
-    pub fn within(subject: &'a S, bounds: Aabb<K>, seed: u64) -> Self {
-        let (min, max) = (bounds.min.map(f64::from), bounds.max.map(f64::from));
+    /// The same for a subject whose [extent](Subject::extent) is known.
+    pub fn within(subject: &'a S, (min, max): ([f64; K], [f64; K]), seed: u64) -> Self {
         Self { subject, min, max, random: random(seed) }
     }
 
@@ -189,7 +188,8 @@ impl<'a, S: Subject<K>, const K: usize> Archer<'a, S, K> {
 
     /// A number next to x that has few digits: see [`Subject::rounded`].
     pub(crate) fn rounded(&self, x: f64) -> f64 {
-        self.subject.rounded(x)
+        let largest = self.min.iter().chain(&self.max).fold(0.0, |most: f64, x| most.max(x.abs()));
+        S::rounded(x, largest)
     }
 
     /// The split planes of a tree: their axes and places.

@@ -52,9 +52,7 @@ pub fn scenes() -> Option<Vec<SceneInfo>> {
     }
     let path = folder().join("scenes.json");
     let Ok(text) = std::fs::read_to_string(&path) else {
-        let missing = format!("{} is not there", path.display());
-        assert!(std::env::var_os("CI").is_none(), "{missing}");
-        skipped(&missing);
+        missing(&format!("{} is not there", path.display()));
         return None;
     };
     let listing: Listing = serde_json::from_str(&text).expect("scenes.json is as documented");
@@ -70,6 +68,15 @@ pub fn load_mesh(scene: &SceneInfo) -> Result<TriangleMesh, String> {
     let path = scene.path();
     let model = load(&path, &options).map_err(|error| error.to_string())?;
     TriangleMesh::new(model.vertices, model.triangles).map_err(|error| error.to_string())
+}
+
+/// Says that something is left out because a file is not there, or panics if the environment variable `CI` is set.
+///
+/// # Panics
+/// As said.
+pub fn missing(what: &str) {
+    assert!(std::env::var_os("CI").is_none(), "{what}");
+    skipped(what);
 }
 
 fn folder() -> PathBuf {

@@ -25,8 +25,8 @@ pub trait Subject<const K: usize>: Intersect<K> {
     }
 
     /// A number next to x of so few digits that its difference to a corner's coordinate is not rounded,
-    /// if the corners' have few as well.
-    fn rounded(&self, x: f64) -> f64 {
+    /// if the corners' have few as well. `largest` is the largest of all coordinates.
+    fn rounded(x: f64, _largest: f64) -> f64 {
         f64::from(x.clamp(f32::MIN.into(), f32::MAX.into()) as f32)
     }
 
@@ -53,12 +53,10 @@ impl<T: Coordinate> Subject<3> for TriangleMesh<T> {
         f64::from(split) / space.scale() + space.center()[axis]
     }
 
-    fn rounded(&self, x: f64) -> f64 {
+    fn rounded(x: f64, largest: f64) -> f64 {
         if T::FITS_TREE {
             return f64::from(x.clamp(f32::MIN.into(), f32::MAX.into()) as f32);
         }
-        let (min, max) = self.extent();
-        let largest = min.iter().chain(&max).fold(0.0, |most: f64, x| most.max(x.abs()));
         meshes::snapped(x, largest)
     }
 

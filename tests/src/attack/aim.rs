@@ -1,12 +1,11 @@
 //! Where volleys come from and go to. All are seeded: the same on every run.
 
 use super::{Target, Truth, Volley, volley::SIZE};
-use crate::Subject;
 use crate::flat::Flat;
 use crate::rays::{Archer, random};
 use crate::{OwnedPacket, Packer};
 use kdray::geometry::Common;
-use kdray::{Interval, Ray, Scene};
+use kdray::{Coordinate, Interval, Precision, Ray, Scene};
 use rand::RngExt;
 use rand::seq::IndexedRandom;
 use rand_pcg::Pcg64Mcg;
@@ -17,11 +16,18 @@ const FAR: f64 = 1e5;
 /// How far away the farthest begin. From there hardly any triangle is clear of a ray, and each is decided by
 /// exact arithmetic: so they are few, and only at few triangles.
 const FARTHEST: f64 = 1e12;
+
+/// Coordinates of more are none that a ray should begin at.
+const LARGEST: f64 = 1e306;
 const FEW_TRIANGLES: usize = 1000;
 const FEW_RAYS: usize = 4;
 
 /// How many points in the inside of a closed mesh are sought.
 const INSIDE: usize = 64;
+
+/// Of so many volleys one is also put to who is slow. It shares no factor with [`KINDS`], so that all kinds have
+/// their turn.
+const SLOW: u64 = 11;
 
 /// After so many volleys all kinds were made once.
 pub const KINDS: u64 = 60;
@@ -53,22 +59,21 @@ enum Share {
 }
 
 /// Makes volleys at a target.
-pub struct Gunner<'a> {
-    target: &'a Target,
+pub struct Gunner<'a, T: 'static = f32> {
+    target: &'a Target<T>,
     inside: Vec<[f64; 3]>,
     seed: u64,
 }
 
-impl<'a> Gunner<'a> {
+impl<'a, T: Precision> Gunner<'a, T> {
     /// Looks for points inside, if the target is closed: such that two rays in any directions cross it an
     /// odd number of times.
-    pub fn new(target: &'a Target, flat: &Flat, seed: u64) -> Self {
+    pub fn new(target: &'a Target<T>, flat: &Flat<T>, seed: u64) -> Self {
         let mut gunner = Self { target, inside: Vec::new(), seed };
         if target.is_closed {
-            let mut archer = Archer::within(&target.mesh, target.bounds, seed);
-            let places =
-                std::iter::repeat_with(|| archer.around(0.0).map(|x| target.mesh.rounded(x)))
-                    .take(20 * INSIDE);
+            let mut archer = Archer::within(&target.mesh, target.extent.ends(), seed);
+            let places = std::iter::repeat_with(|| archer.around(0.0).map(|x| target.rounded(x)))
+                .take(20 * INSIDE);
             let mut random = random(seed);
             let inside = places.filter(|&place| is_inside(flat, place, &mut random));
             gunner.inside = inside.take(INSIDE).collect();
@@ -80,13 +85,14 @@ impl<'a> Gunner<'a> {
     ///
     /// Four fifths of all volleys come from one of four places, at one of four kinds of points, and share
     /// one of three things; the others are those of [`Packer`] and [`Archer`].
-    pub fn volley(&self, number: u64, scene: &Scene) -> Volley {
+    pub fn volley(&self, number: u64, scene: &Scene<T>) -> Volley {
         let seed = self.seed.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(number);
         let mut random = random(seed);
         // In steps of seven, so that few volleys in a row are of many kinds.
         let (cycle, kind) = (number / KINDS, number % KINDS * 7 % KINDS);
         if kind >= 48 {
-            return self.special(kind, scene, seed, &mut random);
+            let volley = self.special(kind, scene, seed, &mut random);
+            return Volley { to_the_slow: number.is_multiple_of(SLOW), ..volley };
         }
         let from = [From::Outside, From::Inside, From::Surface, From::Afar][kind as usize % 4];
         let at = [At::Vertex, At::EdgeMiddle, At::Edge, At::Face][kind as usize / 4 % 4];
@@ -98,8 +104,10 @@ impl<'a> Gunner<'a> {
         let count = if is_farthest { FEW_RAYS } else { SIZE };
         let mut point = |i: usize| self.point(at, turn as usize * SIZE + i, &mut random);
         let points: Vec<[f64; 3]> = (0..count).map(&mut point).collect();
-        let far = if is_farthest { FARTHEST } else { FAR };
+        let far = if is_farthest { FARTHEST } else { FAR.min(self.most()) };
         let volley = self.aimed((from, far), share, &points, &mut random);
+        let to_the_slow = number.is_multiple_of(SLOW);
+        let volley = Volley { to_the_slow, ..volley };
         if random.random_range(0..4) == 0 {
             cut_at_hits(volley, scene, &mut random)
         } else {
@@ -110,7 +118,7 @@ impl<'a> Gunner<'a> {
     /// Points on edges and in faces are rounded, and so lie beside them.
     fn point(&self, at: At, number: usize, random: &mut Pcg64Mcg) -> [f64; 3] {
         let Target { mesh, vertices, edges, .. } = self.target;
-        let vertex = |v: u32| mesh.vertices()[v as usize].map(f64::from);
+        let vertex = |v: u32| self.target.vertex(v);
         let between = |(a, b): (u32, u32), s: f64| {
             let (a, b) = (vertex(a), vertex(b));
             std::array::from_fn(|k| a[k] + s * (b[k] - a[k]))
@@ -165,10 +173,15 @@ impl<'a> Gunner<'a> {
 
     /// Where a ray begins: on the surface if there is no inside.
     fn origin(&self, from: From, far: f64, random: &mut Pcg64Mcg) -> [f64; 3] {
-        let mut archer = Archer::within(&self.target.mesh, self.target.bounds, random.random());
+        let mut archer =
+            Archer::within(&self.target.mesh, self.target.extent.ends(), random.random());
         match (from, self.inside.choose(random)) {
             (From::Outside, _) => self.outside(random),
-            (From::Afar, _) => archer.point_afar(far),
+            // Most of them of so few digits that the way to a vertex is not rounded.
+            (From::Afar, _) => match random.random_range(0..4) {
+                0 => archer.point_afar(far),
+                _ => archer.point_afar(far).map(of_few_digits),
+            },
             (From::Inside, Some(&place)) => place,
             _ => {
                 let at = [At::Vertex, At::EdgeMiddle, At::Face][random.random_range(0..3)];
@@ -180,18 +193,18 @@ impl<'a> Gunner<'a> {
     /// A point outside of the box: a little, far, or above the middle of a side. In f32, so that the
     /// direction to a vertex is not rounded, unless it is far.
     fn outside(&self, random: &mut Pcg64Mcg) -> [f64; 3] {
-        let bounds = &self.target.bounds;
-        let (center, extent) = (bounds.center(), bounds.extent());
+        let extent = &self.target.extent;
+        let (center, size) = (extent.center(), extent.size());
         let is_aligned = random.random_range(0..10) == 0;
         let mut point: [f64; 3] = std::array::from_fn(|k| {
             let offset = if is_aligned { 0.0 } else { random.random_range(-1.0..1.0) };
-            center[k] + extent[k] * offset
+            center[k] + size[k] * offset
         });
         let axis = random.random_range(0..3);
         let distance = [0.51, 0.75, 1.0, 2.0, 10.0][random.random_range(0..5)];
         let sign = if random.random() { 1.0 } else { -1.0 };
-        point[axis] = center[axis] + sign * distance * bounds.diagonal();
-        point.map(|x| self.target.mesh.rounded(x))
+        point[axis] = center[axis] + sign * distance * extent.diagonal();
+        point.map(|x| self.target.rounded(x))
     }
 
     /// The direction, or one along an axis, in a plane of two axes, or longer or shorter.
@@ -201,7 +214,7 @@ impl<'a> Gunner<'a> {
         let mut direction = direction;
         match random.random_range(0..6) {
             0 | 1 => {
-                let length = self.target.bounds.diagonal().max(f64::MIN_POSITIVE);
+                let length = self.target.extent.diagonal().max(f64::MIN_POSITIVE);
                 direction = [zero; 3];
                 direction[axis] = if random.random() { length } else { -length };
             }
@@ -214,24 +227,33 @@ impl<'a> Gunner<'a> {
 
     /// How far away the farthest rays begin.
     fn farthest(&self) -> f64 {
-        if self.target.mesh.triangles().len() <= FEW_TRIANGLES { FARTHEST } else { FAR }
+        let is_small = self.target.mesh.triangles().len() <= FEW_TRIANGLES;
+        let farthest = if is_small { FARTHEST } else { FAR };
+        if farthest <= self.most() { farthest } else { FAR.min(self.most()) }
+    }
+
+    /// How many diagonals away f64 ends.
+    fn most(&self) -> f64 {
+        let size = self.target.extent.diagonal().max(self.target.extent.largest());
+        (LARGEST / size.max(1.0)).max(1.0)
     }
 
     /// Packets of every kind, packets in split planes, and single rays of every kind.
-    fn special(&self, kind: u64, scene: &Scene, seed: u64, random: &mut Pcg64Mcg) -> Volley {
-        let Target { mesh, bounds, .. } = self.target;
-        let aimed = Archer::within(mesh, *bounds, seed).all_kinds(2, FAR);
-        let mut packer = Packer::within(mesh, *bounds, &aimed, seed);
+    fn special(&self, kind: u64, scene: &Scene<T>, seed: u64, random: &mut Pcg64Mcg) -> Volley {
+        let Target { mesh, extent, .. } = self.target;
+        let far = FAR.min(self.most());
+        let aimed = Archer::within(mesh, extent.ends(), seed).all_kinds(2, far);
+        let mut packer = Packer::within(mesh, extent.ends(), &aimed, seed);
         let count = [1, 7, 64, 65, 130, 520][random.random_range(0..6)];
         let packets: Vec<OwnedPacket> = match kind % 3 {
-            0 => packer.at_points(count, FAR).into(),
+            0 => packer.at_points(count, far).into(),
             1 => packer.in_split_planes(scene.tree(), 1),
             _ => Vec::new(),
         };
         if let Some(packet) = packets.choose(random) {
             return cut_at_hits(Volley::of_packet(packet.clone()), scene, random);
         }
-        let mut archer = Archer::within(mesh, *bounds, seed);
+        let mut archer = Archer::within(mesh, extent.ends(), seed);
         let mut rays = archer.all_kinds(4, self.farthest());
         rays.extend(archer.in_split_planes(scene.tree(), 12));
         let cut: Vec<Ray> = rays.iter().map(|ray| cut(ray, scene, random)).collect();
@@ -240,7 +262,11 @@ impl<'a> Gunner<'a> {
 }
 
 /// Whether two rays in any directions from there cross the triangles an odd number of times.
-pub(crate) fn is_inside(flat: &Flat, place: [f64; 3], random: &mut Pcg64Mcg) -> bool {
+pub(crate) fn is_inside<T: Coordinate>(
+    flat: &Flat<T>,
+    place: [f64; 3],
+    random: &mut Pcg64Mcg,
+) -> bool {
     let mut crosses = || {
         let direction = [0; 3].map(|_| random.random_range(-1.0..1.0));
         let (least, most) = Truth::of(flat, &Ray::new(place, direction)).count(Interval::FORWARD);
@@ -250,14 +276,14 @@ pub(crate) fn is_inside(flat: &Flat, place: [f64; 3], random: &mut Pcg64Mcg) -> 
 }
 
 /// The same rays, each with an interval that begins or ends exactly at a hit, or a step beside it.
-fn cut_at_hits(volley: Volley, scene: &Scene, random: &mut Pcg64Mcg) -> Volley {
+fn cut_at_hits<T: Precision>(volley: Volley, scene: &Scene<T>, random: &mut Pcg64Mcg) -> Volley {
     let rays: Vec<Ray> = volley.rays.iter().map(|ray| cut(ray, scene, random)).collect();
     let intervals: Vec<Interval> = rays.iter().map(|ray| ray.interval).collect();
     let packet = volley.packet.map(|packet| packet.with_intervals(&intervals));
     Volley { rays, packet, ..volley }
 }
 
-fn cut(ray: &Ray, scene: &Scene, random: &mut Pcg64Mcg) -> Ray {
+fn cut<T: Precision>(ray: &Ray, scene: &Scene<T>, random: &mut Pcg64Mcg) -> Ray {
     let hits: Vec<f64> = scene.shapes().all_touched(ray).take(5).map(|hit| hit.t).collect();
     let Some(&t) = hits.choose(random) else { return *ray };
     let infinite = f64::INFINITY;
@@ -271,6 +297,11 @@ fn cut(ray: &Ray, scene: &Scene, random: &mut Pcg64Mcg) -> Ray {
     ];
     let (t_min, t_max) = ends[random.random_range(0..ends.len())];
     ray.with_interval(t_min, t_max)
+}
+
+/// The number without its last 29 digits: it has as many as an f32.
+fn of_few_digits(x: f64) -> f64 {
+    f64::from_bits(x.to_bits() >> 29 << 29)
 }
 
 fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {

@@ -1,10 +1,10 @@
 //! What kdray says of a volley: every query of the leaf walk, and closest, any and all hits by every kernel.
 
-use super::Volley;
+use super::{Attacked, Volley};
 use crate::flat::Flat;
 use kdray::primitives::{HitArrays, HitRule};
 use kdray::traverse::PacketKind;
-use kdray::{Hint, Hit, InstructionSet, Ray, Scene};
+use kdray::{Hint, Hit, InstructionSet, Precision, Ray, Scene};
 
 /// Meshes of more triangles are too many to test each, and to be watched.
 const FEW: usize = 2000;
@@ -55,7 +55,7 @@ pub enum Said {
 
 impl Answers {
     /// Asks for everything.
-    pub fn of(scene: &Scene, flat: &Flat, volley: &Volley) -> Self {
+    pub fn of<T: Attacked>(scene: &Scene<T>, flat: &Flat<T>, volley: &Volley) -> Self {
         let rays = volley.rays.iter().map(|ray| Walked::of(scene, ray)).collect();
         let mut others = Vec::new();
         for set in InstructionSet::available() {
@@ -68,16 +68,18 @@ impl Answers {
             in_packets(&scene, volley, &mut add);
         }
         let mut add = |name: &str, said| others.push(Other { name: name.to_owned(), said });
-        without_tree(flat, &volley.rays, &mut add);
-        if scene.mesh().triangles().len() <= FEW {
-            in_watched_packets(scene, &volley.rays, &mut add);
+        if volley.to_the_slow {
+            without_tree(flat, &volley.rays, &mut add);
+        }
+        if volley.to_the_slow && scene.mesh().triangles().len() <= FEW {
+            T::in_watched_packets(scene, &volley.rays, &mut add);
         }
         Self { rays, others }
     }
 }
 
 impl Walked {
-    fn of(scene: &Scene, ray: &Ray) -> Self {
+    fn of<T: Precision>(scene: &Scene<T>, ray: &Ray) -> Self {
         let shapes = scene.shapes();
         Self {
             closest: shapes.closest_hit(ray),
@@ -89,7 +91,7 @@ impl Walked {
     }
 }
 
-fn one_by_one(scene: &Scene, rays: &[Ray], add: &mut impl FnMut(&str, Said)) {
+fn one_by_one<T: Precision>(scene: &Scene<T>, rays: &[Ray], add: &mut impl FnMut(&str, Said)) {
     let closest = rays.iter().map(|ray| scene.closest_hit(ray)).collect();
     add("single, closest hit", Said::Closest(closest));
     add("single, any hit", Said::Any(rays.iter().map(|ray| scene.any_hit(ray)).collect()));
@@ -112,7 +114,7 @@ fn one_by_one(scene: &Scene, rays: &[Ray], add: &mut impl FnMut(&str, Said)) {
     add("batch, any hit near", Said::Any(near));
 }
 
-fn in_batches(scene: &Scene, rays: &[Ray], add: &mut impl FnMut(&str, Said)) {
+fn in_batches<T: Precision>(scene: &Scene<T>, rays: &[Ray], add: &mut impl FnMut(&str, Said)) {
     let (mut closest, mut any) = (vec![None; rays.len()], vec![false; rays.len()]);
     scene.closest_hits(rays, &mut closest);
     scene.any_hits(rays, &mut any);
@@ -123,7 +125,7 @@ fn in_batches(scene: &Scene, rays: &[Ray], add: &mut impl FnMut(&str, Said)) {
     add("batch, all hits", Said::All(HitRule::Crossing, all));
 }
 
-fn in_packets(scene: &Scene, volley: &Volley, add: &mut impl FnMut(&str, Said)) {
+fn in_packets<T: Precision>(scene: &Scene<T>, volley: &Volley, add: &mut impl FnMut(&str, Said)) {
     let Some(packet) = &volley.packet else { return };
     let packet = packet.packet();
     let (mut hits, mut any) = (HitArrays::default(), vec![false; packet.len()]);
@@ -134,18 +136,18 @@ fn in_packets(scene: &Scene, volley: &Volley, add: &mut impl FnMut(&str, Said)) 
     add("packet, any hit", Said::Any(any));
 }
 
-fn without_tree(flat: &Flat, rays: &[Ray], add: &mut impl FnMut(&str, Said)) {
+fn without_tree<T: Precision>(flat: &Flat<T>, rays: &[Ray], add: &mut impl FnMut(&str, Said)) {
     let all = |rule| Said::All(rule, rays.iter().map(|ray| checked(flat, ray, rule)).collect());
     add("no tree, all touched", all(HitRule::Touching));
     add("no tree, all hits", all(HitRule::Crossing));
 }
 
 /// Nothing hits a ray that cannot be traced: whoever tests triangles must look.
-fn checked(flat: &Flat, ray: &Ray, rule: HitRule) -> Vec<Hit> {
+fn checked<T: Precision>(flat: &Flat<T>, ray: &Ray, rule: HitRule) -> Vec<Hit> {
     if ray.check().is_ok() { flat.all_hits(ray, rule) } else { Vec::new() }
 }
 
-fn in_watched_packets(scene: &Scene, rays: &[Ray], add: &mut impl FnMut(&str, Said)) {
+pub(super) fn in_watched_packets(scene: &Scene, rays: &[Ray], mut add: impl FnMut(&str, Said)) {
     for kind in PacketKind::ALL {
         let packets = scene.shapes().packets(kind);
         let closest = packets.closest_hits(rays, &mut ());

@@ -1,14 +1,25 @@
 //! All targets in turn, with trees by all settings, until there were rays enough.
 
-use super::aim::{Gunner, KINDS};
+use super::aim::Gunner;
 use super::case::{Case, Tamper, shoot};
 use super::verdict::Judge;
 use super::volley::SIZE;
-use super::{Tally, Target, settings, trees};
+use super::{AnyTarget, Attacked, Tally, Target, settings, trees};
 use crate::flat::Flat;
 use kdray::Scene;
 use rayon::prelude::*;
+use std::ops::Range;
 use std::time::{Duration, Instant};
+
+/// In the first round each target has as many volleys as its weight, in each later one twice as many as before, up to
+/// so many times as many: so all targets have their turn early, and large trees are not built often.
+const LONGEST: u64 = 32;
+
+/// A ray that touches more triangles is so slow that its target has no more volleys than in the first round.
+const DEEP: u64 = 1000;
+
+/// In how many parts, each with a tree by another setting, a small target has its volleys of a round.
+const PARTS: u64 = 4;
 
 /// When to end.
 #[derive(Clone, Copy, Debug)]
@@ -33,15 +44,29 @@ pub struct Outcome {
     /// Builds and traces that were not the same as others, and how many there were.
     pub trees: (u64, u64),
     /// The first case that failed, made small.
-    pub case: Option<Case>,
+    pub case: Option<SmallCase>,
     /// What was wrong of it.
     pub example: Option<String>,
+    /// How many volleys there were, and how many trees for them.
+    pub(super) volleys: u64,
+    pub(super) parts: u64,
+}
+
+/// A case that was made as small as possible.
+#[derive(Clone, Debug)]
+pub struct SmallCase {
+    /// How many rays it has.
+    pub rays: usize,
+    /// How many triangles.
+    pub triangles: usize,
+    /// The case as a file for `tests/repro`.
+    pub text: String,
 }
 
 /// The attack on some targets.
 pub struct Campaign<'a> {
     /// What is shot at.
-    pub targets: Vec<Target>,
+    pub targets: Vec<AnyTarget>,
     /// What all chance depends on.
     pub seed: u64,
     /// When to end.
@@ -57,51 +82,70 @@ pub struct Campaign<'a> {
 }
 
 impl Campaign<'_> {
-    /// Shoots in rounds: each round takes another setting of the tree, and a part of the rays for each
-    /// target.
+    /// Shoots in rounds: in each every target has volleys by its weight, until there were rays enough.
     pub fn run(&self) -> Vec<Outcome> {
         let mut outcomes: Vec<Outcome> = self.targets.iter().map(Outcome::of).collect();
-        let (rounds, volleys) = self.rounds_and_volleys();
-        let mut rays = 0;
-        for round in 0..rounds {
-            for (target, outcome) in self.targets.iter().zip(&mut outcomes) {
+        let weights: Vec<u64> = outcomes.iter().map(Outcome::weight).collect();
+        let rays_of_one = weights.iter().sum::<u64>() * SIZE as u64;
+        let (mut rays, mut times) = (0, 1);
+        while rays < self.limits.rays && rays_of_one > 0 {
+            let left = (self.limits.rays - rays).div_ceil(rays_of_one);
+            for ((target, outcome), weight) in self.targets.iter().zip(&mut outcomes).zip(&weights)
+            {
                 if self.is_over() {
                     return outcomes;
                 }
-                (self.progress)(rays, &target.name);
+                (self.progress)(rays, target.name());
                 let before = outcome.tally.rays;
-                self.attack(target, outcome, round, volleys);
+                // Lists of so many hits take their time.
+                let most = if outcome.tally.deepest > DEEP { 1 } else { times };
+                let volleys = weight * left.min(most);
+                match target {
+                    AnyTarget::Single(target) => self.attack(target, outcome, volleys),
+                    AnyTarget::Double(target) => self.attack(target, outcome, volleys),
+                }
                 rays += outcome.tally.rays - before;
             }
+            times = LONGEST.min(2 * times);
         }
         (self.progress)(rays, "done");
         outcomes
-    }
-
-    /// How many rounds there are, and how many volleys at each target in each.
-    fn rounds_and_volleys(&self) -> (u64, u64) {
-        let volleys = self.limits.rays.div_ceil(self.targets.len().max(1) as u64 * SIZE as u64);
-        // Few volleys in each round: when time ends, all targets had their turn.
-        let rounds = volleys.div_ceil(4 * KINDS).max(volleys.min(settings::NAMES.len() as u64));
-        (rounds, volleys.div_ceil(rounds.max(1)))
     }
 
     fn is_over(&self) -> bool {
         (self.is_stopped)() || self.limits.until.is_some_and(|end| Instant::now() >= end)
     }
 
-    /// One round at one target.
-    fn attack(&self, target: &Target, outcome: &mut Outcome, round: u64, volleys: u64) {
-        let name = settings::NAMES[round as usize % settings::NAMES.len()];
+    /// A target's share of a round.
+    fn attack<T: Attacked>(&self, target: &Target<T>, outcome: &mut Outcome, volleys: u64) {
+        let flat = Flat::new(&target.mesh);
+        let gunner = Gunner::new(target, &flat, self.seed);
+        let parts = if outcome.is_small() { PARTS.min(volleys) } else { 1 };
+        for part in 0..parts {
+            let count = volleys / parts + u64::from(part < volleys % parts);
+            let numbers = outcome.volleys..outcome.volleys + count;
+            self.attack_part(target, &flat, &gunner, outcome, numbers);
+            outcome.volleys += count;
+            outcome.parts += 1;
+        }
+    }
+
+    /// The volleys of some numbers at one tree.
+    fn attack_part<T: Attacked>(
+        &self,
+        target: &Target<T>,
+        flat: &Flat<T>,
+        gunner: &Gunner<'_, T>,
+        outcome: &mut Outcome,
+        numbers: Range<u64>,
+    ) {
+        let name = settings::NAMES[outcome.parts as usize % settings::NAMES.len()];
         let options = settings::named(name);
         let scene = match Scene::build(target.mesh.clone(), &options) {
             Ok(scene) => scene,
             Err(error) => return outcome.refused(&format!("{name}: {error}")),
         };
-        let flat = Flat::new(&target.mesh);
-        let gunner = Gunner::new(target, &flat, self.seed);
-        let judge = Judge::of(target, &flat);
-        let shots = (round * volleys..(round + 1) * volleys).into_par_iter();
+        let judge = Judge::of(target, flat);
         let shot = |number: u64| {
             if self.is_over() {
                 return (number, Tally::default());
@@ -109,19 +153,25 @@ impl Campaign<'_> {
             let volley = gunner.volley(number, &scene);
             (number, shoot(&scene, judge, &volley, self.tamper))
         };
-        let tallies: Vec<(u64, Tally)> = shots.map(shot).collect();
+        let tallies: Vec<(u64, Tally)> = numbers.clone().into_par_iter().map(shot).collect();
         for (number, tally) in tallies {
-            if tally.errors() > 0 && outcome.case.is_none() && outcome.example.is_none() {
-                let ids = 0..target.mesh.triangles().len() as u32;
-                let soup = ids.map(|id| target.mesh.corners(id)).collect();
+            if tally.errors() > 0 && outcome.example.is_none() {
                 let volley = gunner.volley(number, &scene);
-                let case = Case { soup, settings: name.to_owned(), volley };
                 outcome.example.clone_from(&tally.example);
-                outcome.case = Some(case.smallest(self.tamper, self.shrink));
+                let soup =
+                    (0..outcome.triangles as u32).map(|id| target.mesh.corners(id)).collect();
+                let case = Case { soup, settings: name.to_owned(), volley };
+                outcome.case = Some(SmallCase::of(case.smallest(self.tamper, self.shrink)));
             }
             outcome.tally = std::mem::take(&mut outcome.tally).and(tally);
         }
-        if round < trees::settings_tried(target.mesh.triangles().len()) {
+        let visit = Visit { target, flat, scene: &scene, gunner, numbers, seed: self.seed };
+        let others = T::other_queries(&visit);
+        if others.errors() > 0 && outcome.example.is_none() {
+            outcome.example.clone_from(&others.example);
+        }
+        outcome.tally = std::mem::take(&mut outcome.tally).and(others);
+        if outcome.parts < trees::settings_tried(outcome.triangles) {
             let rays = gunner.volley(0, &scene).rays;
             let (differ, all) = trees::differing(&target.mesh, &options, &rays);
             outcome.trees = (outcome.trees.0 + differ, outcome.trees.1 + all);
@@ -129,13 +179,48 @@ impl Campaign<'_> {
     }
 }
 
+/// A target with one of its trees.
+pub struct Visit<'a, T: 'static> {
+    /// The target.
+    pub target: &'a Target<T>,
+    /// Its triangles.
+    pub flat: &'a Flat<T>,
+    /// With a tree.
+    pub scene: &'a Scene<T>,
+    /// Who aims at it.
+    pub gunner: &'a Gunner<'a, T>,
+    /// The volleys that were shot.
+    pub numbers: Range<u64>,
+    /// What all chance depends on.
+    pub seed: u64,
+}
+
+impl SmallCase {
+    fn of<T: Attacked>(case: Case<T>) -> Self {
+        Self { rays: case.volley.rays.len(), triangles: case.soup.len(), text: case.to_string() }
+    }
+}
+
 impl Outcome {
-    fn of(target: &Target) -> Self {
+    fn of(target: &AnyTarget) -> Self {
         Self {
-            name: target.name.clone(),
-            triangles: target.mesh.triangles().len(),
-            is_closed: target.is_closed,
+            name: target.name().to_owned(),
+            triangles: target.triangles(),
+            is_closed: target.is_closed(),
             ..Self::default()
+        }
+    }
+
+    fn is_small(&self) -> bool {
+        self.triangles <= 2000
+    }
+
+    /// How many times as many volleys it has as a large target.
+    fn weight(&self) -> u64 {
+        match self.triangles {
+            0..=2_000 => 4,
+            2_001..=50_000 => 2,
+            _ => 1,
         }
     }
 

@@ -3,7 +3,7 @@
 use super::answers::Answers;
 use super::settings;
 use super::verdict::Judge;
-use super::{Tally, Target, Volley};
+use super::{Attacked, Tally, Target, Volley};
 use crate::OwnedPacket;
 use crate::flat::Flat;
 use crate::meshes::{Soup, mesh};
@@ -17,16 +17,16 @@ pub type Tamper<'a> = &'a (dyn Fn(&mut Answers) + Sync);
 
 /// Triangles, the name of [`settings`], and rays.
 #[derive(Clone, Debug)]
-pub struct Case {
+pub struct Case<T = f32> {
     /// The triangles.
-    pub soup: Soup,
+    pub soup: Soup<T>,
     /// How the tree is built.
     pub settings: String,
     /// The rays.
     pub volley: Volley,
 }
 
-impl Case {
+impl<T: Attacked> Case<T> {
     /// What is wrong of the answers; nothing if the tree cannot be built.
     pub fn tally(&self, tamper: Option<Tamper<'_>>) -> Tally {
         let target = Target::new("case", mesh(self.soup.clone()));
@@ -63,9 +63,9 @@ impl Case {
 }
 
 /// Asks about a volley and judges the answers.
-pub fn shoot(
-    scene: &Scene,
-    judge: Judge<'_>,
+pub fn shoot<T: Attacked>(
+    scene: &Scene<T>,
+    judge: Judge<'_, T>,
     volley: &Volley,
     tamper: Option<Tamper<'_>>,
 ) -> Tally {
@@ -103,13 +103,13 @@ fn reduced(mut items: Vec<usize>, fails: impl Fn(&[usize]) -> bool) -> Vec<usize
 ///
 /// # Panics
 /// If one is not.
-pub fn assert_right(settings: &str, soup: Soup, volley: Volley) {
+pub fn assert_right<T: Attacked>(settings: &str, soup: Soup<T>, volley: Volley) {
     let tally = Case { soup, settings: settings.to_owned(), volley }.tally(None);
     assert_eq!(tally.errors(), 0, "{tally:?}");
 }
 
 /// A file for `tests/repro`.
-impl Display for Case {
+impl<T: Attacked> Display for Case<T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let vector = |v: &[f64]| {
             format!("[{}]", v.iter().map(|&x| number(x)).collect::<Vec<_>>().join(", "))
@@ -136,8 +136,11 @@ impl Display for Case {
         };
         let (settings, inside) = (&self.settings, self.volley.from_inside);
         writeln!(f, "//! (Say here what was wrong.)\n")?;
-        writeln!(f, "{uses}use kdray_tests::attack::{{Volley, assert_right}};\n")?;
-        writeln!(f, "#[test]\nfn the_answers_are_right() {{\n    let triangles = vec![")?;
+        writeln!(f, "{uses}use kdray_tests::attack::{{Volley, assert_right}};")?;
+        writeln!(f, "use kdray_tests::meshes::Soup;\n")?;
+        let vertices = std::any::type_name::<T>();
+        writeln!(f, "#[test]\nfn the_answers_are_right() {{")?;
+        writeln!(f, "    let triangles: Soup<{vertices}> = vec![")?;
         for triangle in &self.soup {
             writeln!(f, "        {triangle:?},")?;
         }

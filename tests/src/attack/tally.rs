@@ -1,6 +1,6 @@
 //! Wrong answers, counted by what is wrong with them.
 
-use kdray::Ray;
+use std::fmt::Debug;
 
 /// How many answers are wrong, by what is wrong with them.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -11,6 +11,8 @@ pub struct Tally {
     pub crossing: u64,
     /// How many meet an edge or a vertex, or nearly: so that rational arithmetic decided.
     pub close: u64,
+    /// The most triangles that one of them touches.
+    pub deepest: u64,
     /// How many were compared with rational arithmetic in all numbers.
     pub oracle: u64,
     /// Hits that are not in a list, or rays that hit something and are said not to.
@@ -27,6 +29,14 @@ pub struct Tally {
     pub numbers: u64,
     /// Answers of other kernels that are not the same to the last bit.
     pub differing: u64,
+    /// How many points were asked about.
+    pub points: u64,
+    /// Wrong answers about points.
+    pub misjudged: u64,
+    /// How many tree files were read, nearly all of them damaged.
+    pub files: u64,
+    /// Damaged files that were not refused, and whole ones that were or answered otherwise.
+    pub misread: u64,
     /// The first thing that was wrong, in words.
     pub example: Option<String>,
 }
@@ -38,7 +48,7 @@ impl Tally {
     }
 
     /// The errors, each kind on its own.
-    pub fn by_kind(&self) -> [u64; 7] {
+    pub fn by_kind(&self) -> [u64; 9] {
         [
             self.lost,
             self.phantom,
@@ -47,6 +57,8 @@ impl Tally {
             self.duplicate,
             self.numbers,
             self.differing,
+            self.misjudged,
+            self.misread,
         ]
     }
 
@@ -57,6 +69,7 @@ impl Tally {
             rays: self.rays + other.rays,
             crossing: self.crossing + other.crossing,
             close: self.close + other.close,
+            deepest: self.deepest.max(other.deepest),
             oracle: self.oracle + other.oracle,
             lost: self.lost + other.lost,
             phantom: self.phantom + other.phantom,
@@ -65,12 +78,16 @@ impl Tally {
             duplicate: self.duplicate + other.duplicate,
             numbers: self.numbers + other.numbers,
             differing: self.differing + other.differing,
+            points: self.points + other.points,
+            misjudged: self.misjudged + other.misjudged,
+            files: self.files + other.files,
+            misread: self.misread + other.misread,
             example: self.example.or(other.example),
         }
     }
 
     /// Notes what is wrong, if it is the first.
-    pub(super) fn tell(&mut self, ray: &Ray, what: impl FnOnce() -> String) {
-        self.example.get_or_insert_with(|| format!("{ray:?}: {}", what()));
+    pub(super) fn tell(&mut self, about: &impl Debug, what: impl FnOnce() -> String) {
+        self.example.get_or_insert_with(|| format!("{about:?}: {}", what()));
     }
 }

@@ -1,46 +1,18 @@
 //! What is shot at: closed meshes, whose crossings have a known parity, and awkward ones.
 
-use crate::closed::{closed_part, is_closed, vertices_and_edges};
+use super::{AnyTarget, Target};
+use crate::closed::closed_part;
 use crate::meshes::{self, Soup};
-use crate::shared::{load_mesh, scenes};
-use kdray::{Aabb, TriangleMesh};
+use crate::shared::{load_mesh, missing, scenes};
+use kdray::TriangleMesh;
 
 /// Scenes with more triangles are left out, because their trees take too long to build again and again.
 const MOST: usize = 520_000;
 
-/// A mesh and where it can be aimed at.
-#[derive(Clone, Debug)]
-pub struct Target {
-    /// What it is called in tables.
-    pub name: String,
-    /// The mesh.
-    pub mesh: TriangleMesh,
-    /// Its box.
-    pub bounds: Aabb<3>,
-    /// Whether every ray without end from outside crosses it an even number of times.
-    pub is_closed: bool,
-    /// The vertices that triangles use.
-    pub vertices: Vec<u32>,
-    /// The pairs of them that are edges.
-    pub edges: Vec<(u32, u32)>,
-}
-
-impl Target {
-    /// A mesh by that name.
-    pub fn new(name: impl Into<String>, mesh: TriangleMesh) -> Self {
-        let (vertices, edges) = vertices_and_edges(&mesh);
-        let bounds = Aabb::of_points(vertices.iter().map(|&v| mesh.vertices()[v as usize]));
-        let is_closed = is_closed(&mesh);
-        Self { name: name.into(), mesh, bounds, is_closed, vertices, edges }
-    }
-}
-
-/// The targets that are made by code.
-pub fn made() -> Vec<Target> {
-    let mut targets = closed();
-    targets.extend(scaled());
-    targets.extend(awkward());
-    targets
+/// The targets that are made by code, of both precisions.
+pub fn made() -> Vec<AnyTarget> {
+    let singles = closed().into_iter().chain(scaled()).chain(awkward());
+    singles.map(AnyTarget::from).chain(in_f64().into_iter().map(AnyTarget::from)).collect()
 }
 
 fn closed() -> Vec<Target> {
@@ -83,6 +55,37 @@ fn scaled() -> Vec<Target> {
     ]
 }
 
+/// Meshes whose vertices are no f32: rounded, they would be others.
+fn in_f64() -> Vec<Target<f64>> {
+    let of = |name: &str, soup: Soup<f64>| Target::new(name, meshes::mesh(soup));
+    let (sphere, torus) = (|| soup_of(&meshes::sphere(8)), || soup_of(&meshes::torus(16, 10)));
+    let utm = [691_607.123, 5_334_760.456, 520.789];
+    let placed = |soup: &Soup, scale: f64| meshes::placed(soup, scale, [0.0; 3]);
+    let bent = |[x, y, z]: [f64; 3]| [0.1 * x + 0.3, y / 3.0, 0.7 * z - 0.2 * x];
+    let by = |soup: Soup, by: &dyn Fn([f64; 3]) -> [f64; 3]| -> Soup<f64> {
+        meshes::in_f64(&soup).into_iter().map(|triangle| triangle.map(by)).collect()
+    };
+    vec![
+        of("f64: torus, bent", by(torus(), &bent)),
+        of("f64: torus, a metre in UTM", meshes::placed(&torus(), 1.0, utm)),
+        of("f64: cubes, a millimetre in UTM", meshes::placed(&meshes::boxes(3), 1e-3, utm)),
+        of("f64: cubes as of f32", meshes::in_f64(&meshes::boxes(3))),
+        of("f64: sphere, size 1e-300", placed(&sphere(), 1e-300)),
+        of("f64: sphere, size 1e-100", placed(&sphere(), 1e-100)),
+        of("f64: torus, size 1e100", placed(&torus(), 1e100)),
+        of("f64: sphere, size 1e300", placed(&sphere(), 1e300)),
+        of("f64: sphere, 1e6 x 1 x 1e-6", by(sphere(), &|[x, y, z]| [1e6 * x, y / 3.0, 1e-6 * z])),
+        of("f64: fan of needles", by(soup_of(&meshes::spindle(100, 1e-5)), &bent)),
+        of("f64: soup", by(meshes::soup(300, [0.0; 3], 1.0, 5), &bent)),
+        of(
+            "f64: soup, a metre in UTM",
+            meshes::placed(&meshes::soup(200, [0.0; 3], 1.0, 7), 1.0, utm),
+        ),
+        of("f64: degenerate and double triangles", by(meshes::degenerate(12), &|p| p)),
+        of("f64: needles", by(meshes::needles(200, 10), &bent)),
+    ]
+}
+
 /// Meshes that are no surfaces of anything.
 fn awkward() -> Vec<Target> {
     let of = |name: &str, soup: Soup| Target::new(name, meshes::mesh(soup));
@@ -111,9 +114,15 @@ fn overlapping(count: usize) -> Soup {
 
 /// The scenes beside the checkout, if they are there: the closed part of those that have one, and all
 /// awkward ones as they are. Only those of at most so many triangles.
-pub fn of_scenes(most: usize) -> Vec<Target> {
+pub fn of_scenes(most: usize) -> Vec<AnyTarget> {
     let listed = scenes().into_iter().flatten().filter(|info| info.triangles <= most.min(MOST));
-    let loaded = listed.filter_map(|info| Some((load_mesh(&info).ok()?, info.name)));
+    let loaded = listed.filter_map(|info| match load_mesh(&info) {
+        Ok(mesh) => Some((mesh, info.name)),
+        Err(error) => {
+            missing(&error);
+            None
+        }
+    });
     let targets = loaded.flat_map(|(mesh, name)| {
         let closed = closed_part(&mesh);
         let whole = name.starts_with("awkward").then(|| Target::new(&name, mesh));
@@ -121,7 +130,8 @@ pub fn of_scenes(most: usize) -> Vec<Target> {
         let closed = is_worth_it.then(|| Target::new(format!("{name}, closed part"), closed));
         [closed, whole].into_iter().flatten()
     });
-    targets.filter(|target| !target.mesh.triangles().is_empty()).collect()
+    let targets = targets.filter(|target| !target.mesh.triangles().is_empty());
+    targets.map(AnyTarget::from).collect()
 }
 
 fn soup_of(mesh: &TriangleMesh) -> Soup {
@@ -142,5 +152,6 @@ mod tests {
     fn what_should_be_closed_is() {
         assert!(closed().iter().chain(&scaled()).all(|target| target.is_closed));
         assert!(awkward().iter().filter(|target| target.is_closed).count() <= 1);
+        assert_eq!(in_f64().iter().filter(|target| !target.is_closed).count(), 4);
     }
 }

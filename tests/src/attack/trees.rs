@@ -1,7 +1,7 @@
 //! Whether trees and hits are the same to the last byte, however many threads there are and however often.
 
-use super::settings;
 use super::verdict::bits;
+use super::{Attacked, settings};
 use kdray::{BuildOptions, Hit, InstructionSet, Ray, Scene, TriangleMesh};
 use rayon::ThreadPoolBuilder;
 use std::fmt::{self, Write};
@@ -23,7 +23,11 @@ pub fn settings_tried(triangles: usize) -> u64 {
 ///
 /// # Panics
 /// If a build is refused, or threads cannot be started.
-pub fn differing(mesh: &TriangleMesh, options: &BuildOptions, rays: &[Ray]) -> (u64, u64) {
+pub fn differing<T: Attacked>(
+    mesh: &TriangleMesh<T>,
+    options: &BuildOptions,
+    rays: &[Ray],
+) -> (u64, u64) {
     let mut prints = Vec::new();
     for threads in THREADS {
         let pool = ThreadPoolBuilder::new().num_threads(threads).build();
@@ -41,8 +45,12 @@ pub fn differing(mesh: &TriangleMesh, options: &BuildOptions, rays: &[Ray]) -> (
 }
 
 /// A hash of all bytes of both trees.
-fn fingerprint_of_tree(scene: &Scene) -> u64 {
+fn fingerprint_of_tree<T: Attacked>(scene: &Scene<T>) -> u64 {
     let mut hasher = DefaultHasher::new();
+    if let Some(bytes) = T::saved(scene) {
+        hasher.write(&bytes);
+        return hasher.finish();
+    }
     let tree = scene.tree();
     for corner in [tree.bounds().min, tree.bounds().max] {
         corner.map(f32::to_bits).hash(&mut hasher);
@@ -58,7 +66,7 @@ fn fingerprint_of_tree(scene: &Scene) -> u64 {
     hasher.finish()
 }
 
-fn fingerprint_of_hits(scene: &Scene, rays: &[Ray]) -> u64 {
+fn fingerprint_of_hits<T: Attacked>(scene: &Scene<T>, rays: &[Ray]) -> u64 {
     let (mut closest, mut any) = (vec![None; rays.len()], vec![false; rays.len()]);
     scene.par_closest_hits(rays, &mut closest);
     scene.par_any_hits(rays, &mut any);

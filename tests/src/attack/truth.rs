@@ -8,7 +8,7 @@ use crate::flat::Flat;
 use crate::oracle::exact_triangle_hit;
 use glam::{DVec3, Vec3Swizzles};
 use kdray::primitives::HitRule;
-use kdray::{Interval, Ray};
+use kdray::{Coordinate, Interval, Ray};
 use num_traits::{Signed, ToPrimitive};
 
 /// An edge function, or a volume, of six products has fewer than ten roundings, each at most 2^-53 of the
@@ -54,19 +54,33 @@ pub enum Place {
 
 impl Truth {
     /// The truth about `ray` and the triangles of `flat`.
-    pub fn of(flat: &Flat, ray: &Ray) -> Self {
+    pub fn of<T: Coordinate>(flat: &Flat<T>, ray: &Ray) -> Self {
+        Self::of_those(flat, ray, |_| true)
+    }
+
+    /// The truth about `ray` and some of the triangles.
+    pub fn of_those<T: Coordinate>(
+        flat: &Flat<T>,
+        ray: &Ray,
+        is_asked_for: impl Fn(u32) -> bool,
+    ) -> Self {
         let mut truth = Self::default();
         if ray.check().is_err() {
             return truth;
         }
-        flat.each_candidate(ray, |corners, id| truth.look_at(corners, id, ray));
+        let view = View::of(ray, flat.scale());
+        flat.each_candidate(ray, |corners, id| {
+            if is_asked_for(id) {
+                truth.look_at(corners, id, ray, &view);
+            }
+        });
         truth.touched.sort_by_key(|hit| hit.id);
         truth.crossed.sort_by_key(|hit| hit.id);
         truth
     }
 
-    fn look_at(&mut self, corners: &[[f32; 3]; 3], id: u32, ray: &Ray) {
-        match Glance::at(corners, ray) {
+    fn look_at<T: Coordinate>(&mut self, corners: &[[T; 3]; 3], id: u32, ray: &Ray, view: &View) {
+        match view.glance(corners) {
             Glance::Missed => {}
             Glance::Hit(t) => {
                 self.touched.push(TrueHit { id, t });
@@ -119,7 +133,12 @@ impl TrueHit {
 }
 
 /// The oracle's answer.
-fn exactly(corners: &[[f32; 3]; 3], id: u32, ray: &Ray, rule: HitRule) -> Option<TrueHit> {
+fn exactly<T: Coordinate>(
+    corners: &[[T; 3]; 3],
+    id: u32,
+    ray: &Ray,
+    rule: HitRule,
+) -> Option<TrueHit> {
     let exact = exact_triangle_hit(corners, id, ray, rule)?;
     let t = exact.t.to_f64().unwrap_or(f64::INFINITY);
     // What is nearer to zero than the smallest f64 keeps its sign.
@@ -139,16 +158,53 @@ enum Glance {
     Unclear,
 }
 
-impl Glance {
+/// A ray as f64 looks at it: times powers of two, if coordinates are out of the ordinary, so that products
+/// neither over- nor underflow.
+struct View {
+    origin: DVec3,
+    direction: DVec3,
+    scale: f64,
+    /// What t is multiplied by.
+    t_scale: f64,
+    /// Whether scaling has rounded nothing.
+    is_exact: bool,
+}
+
+impl View {
+    fn of(ray: &Ray, scale: f64) -> Self {
+        let (origin, direction) = (DVec3::from(ray.origin), DVec3::from(ray.direction));
+        if scale == 1.0 {
+            return Self { origin, direction, scale, t_scale: 1.0, is_exact: true };
+        }
+        let largest = direction.abs().max_element();
+        // From 2^-1022 on the inverse of a power of two is one.
+        let shrink = f64::from_bits(largest.to_bits() & (0x7ff << 52)).recip();
+        let seen = [origin * scale, direction * shrink];
+        let is_exact = seen[0] / scale == origin && seen[1] / shrink == direction;
+        let t_scale = shrink / scale;
+        Self { origin: seen[0], direction: seen[1], scale, t_scale, is_exact }
+    }
+
+    /// The corner, scaled, if that is exact.
+    fn corner<T: Coordinate>(&self, p: [T; 3]) -> Option<DVec3> {
+        let p = DVec3::from(p.map(T::to_f64));
+        let seen = p * self.scale;
+        (self.scale == 1.0 || seen / self.scale == p).then_some(seen)
+    }
+
     /// The edge function of (p, q) is d · ((p − o) x (q − p)); they sum to d · n with n = ab x ac.
-    fn at(corners: &[[f32; 3]; 3], ray: &Ray) -> Self {
-        let [a, b, c] = corners.map(|p| DVec3::from(p.map(f64::from)));
-        let (o, d) = (DVec3::from(ray.origin), DVec3::from(ray.direction));
+    fn glance<T: Coordinate>(&self, &[a, b, c]: &[[T; 3]; 3]) -> Glance {
+        use Glance::{Hit, Missed, Unclear};
+        let corners = [self.corner(a), self.corner(b), self.corner(c)];
+        let ([Some(a), Some(b), Some(c)], true) = (corners, self.is_exact) else {
+            return Unclear;
+        };
+        let (o, d) = (self.origin, self.direction);
         let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
         let (mut surely_below, mut surely_above) = (true, true);
         let (mut some_below, mut some_above) = (false, false);
         for (p, q) in [(a, b), (b, c), (c, a)] {
-            let Some((value, error)) = triple(p - o, q - p, d) else { return Self::Unclear };
+            let Some((value, error)) = triple(p - o, q - p, d) else { return Unclear };
             (least, most) = (least.min(value), most.max(value));
             some_below |= value < -error;
             some_above |= value > error;
@@ -156,18 +212,18 @@ impl Glance {
             surely_above &= value > error;
         }
         if some_below && some_above {
-            return Self::Missed;
+            return Missed;
         }
         if !surely_below && !surely_above {
-            return Self::Unclear;
+            return Unclear;
         }
         let (along, from_origin) = (triple(b - a, c - a, d), triple(b - a, c - a, a - o));
         let (Some((den, den_error)), Some((volume, error))) = (along, from_origin) else {
-            return Self::Unclear;
+            return Unclear;
         };
         let good = den_error / den.abs() + error / volume.abs() < T_ERROR;
-        let t = volume / den;
-        if good && (1e-290..1e290).contains(&t.abs()) { Self::Hit(t) } else { Self::Unclear }
+        let t = volume / den * self.t_scale;
+        if good && (1e-290..1e290).contains(&t.abs()) { Hit(t) } else { Unclear }
     }
 }
 
@@ -187,7 +243,7 @@ fn triple(x: DVec3, y: DVec3, z: DVec3) -> Option<(f64, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::meshes::{boxes, mesh, sphere};
+    use crate::meshes::{boxes, mesh, placed, soup, sphere};
     use crate::rays::Archer;
 
     #[test]
@@ -197,7 +253,7 @@ mod tests {
                 for id in 0..mesh.triangles().len() as u32 {
                     let corners = mesh.corners(id);
                     let exact = exactly(&corners, id, &ray, HitRule::Touching);
-                    match Glance::at(&corners, &ray) {
+                    match View::of(&ray, 1.0).glance(&corners) {
                         Glance::Missed => assert_eq!(exact, None, "{ray:?} {id}"),
                         Glance::Hit(t) => assert!(exact.unwrap().is_at(t), "{ray:?} {id}"),
                         Glance::Unclear => {}
@@ -205,6 +261,29 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn sizes_out_of_the_ordinary_are_seen_as_well() {
+        let (mut told, mut all) = (0, 0);
+        for size in [1e-300, 1e-100, 1e100, 1e300] {
+            let mesh = mesh(placed(&soup(30, [0.0; 3], 1.0, 3), size, [0.0; 3]));
+            let flat = Flat::new(&mesh);
+            for ray in Archer::new(&mesh, 6).all_kinds(10, 1e3) {
+                let view = View::of(&ray, flat.scale());
+                for id in 0..30 {
+                    let corners = mesh.corners(id);
+                    let exact = exactly(&corners, id, &ray, HitRule::Touching);
+                    match view.glance(&corners) {
+                        Glance::Missed => assert_eq!(exact, None, "{ray:?} {id}"),
+                        Glance::Hit(t) => assert!(exact.unwrap().is_at(t), "{ray:?} {id}"),
+                        Glance::Unclear => told -= 1,
+                    }
+                    (told, all) = (told + 1, all + 1);
+                }
+            }
+        }
+        assert!(told > all / 2, "{told} of {all}");
     }
 
     #[test]

@@ -2,30 +2,30 @@
 
 use super::answers::{Answers, Said, Walked};
 use super::truth::{Place, TrueHit};
-use super::{Tally, Target, Truth, Volley};
+use super::{Extent, Tally, Target, Truth, Volley};
 use crate::flat::Flat;
 use crate::oracle::{agrees_on_all, agrees_on_closest, exact_triangle_hit};
 use kdray::primitives::HitRule;
-use kdray::{Aabb, Hit, Interval, Ray};
+use kdray::{Hit, Interval, Precision, Ray};
 
 /// Of so many rays the oracle is asked about one: t, u, v and the side must be right as well.
 const ORACLE: usize = 64;
 
 /// What is known of a target, to judge by.
 #[derive(Clone, Copy)]
-pub struct Judge<'a> {
+pub struct Judge<'a, T = f32> {
     /// Its triangles.
-    pub flat: &'a Flat,
-    /// Its box.
-    pub bounds: Aabb<3>,
+    pub flat: &'a Flat<T>,
+    /// Where they are.
+    pub extent: Extent,
     /// Whether it is closed.
     pub is_closed: bool,
 }
 
-impl<'a> Judge<'a> {
+impl<'a, T: Precision> Judge<'a, T> {
     /// The judge of answers about a target.
-    pub fn of(target: &Target, flat: &'a Flat) -> Self {
-        Self { flat, bounds: target.bounds, is_closed: target.is_closed }
+    pub fn of(target: &Target<T>, flat: &'a Flat<T>) -> Self {
+        Self { flat, extent: target.extent, is_closed: target.is_closed }
     }
 
     /// Counts what is wrong of the answers to a volley.
@@ -33,12 +33,7 @@ impl<'a> Judge<'a> {
         let mut tally = Tally::default();
         for (index, (ray, walked)) in volley.rays.iter().zip(&answers.rays).enumerate() {
             let truth = Truth::of(self.flat, ray);
-            tally.rays += 1;
-            tally.crossing += u64::from(truth.count(ray.interval).1 > 0);
-            tally.close += u64::from(truth.is_close);
-            judge_list(&mut tally, ray, &truth.crossed, &walked.crossed);
-            judge_list(&mut tally, ray, &truth.touched, &walked.touched);
-            judge_closest(&mut tally, ray, &truth.touched, walked);
+            judge_hits(&mut tally, ray, &truth, walked);
             self.judge_count(&mut tally, ray, &truth, walked, volley.from_inside);
             // By the place in the volley: of every kind some are asked about.
             if index % ORACLE == volley.rays.len() / 2 % ORACLE {
@@ -67,7 +62,7 @@ impl<'a> Judge<'a> {
         let is_endless = self.is_closed && ray.interval == Interval::FORWARD && ray.check().is_ok();
         let parity = match is_endless {
             true if from_inside => Some(1),
-            true if !self.bounds.contains(ray.origin) => Some(0),
+            true if !self.extent.contains(ray.origin) => Some(0),
             _ => None,
         };
         let is_consistent = walked.count == walked.crossed.len();
@@ -106,6 +101,17 @@ impl<'a> Judge<'a> {
             tally.tell(ray, || error);
         }
     }
+}
+
+/// All hits of a ray, but not their number.
+pub(super) fn judge_hits(tally: &mut Tally, ray: &Ray, truth: &Truth, walked: &Walked) {
+    tally.rays += 1;
+    tally.crossing += u64::from(truth.count(ray.interval).1 > 0);
+    tally.close += u64::from(truth.is_close);
+    tally.deepest = tally.deepest.max(truth.touched.len() as u64);
+    judge_list(tally, ray, &truth.crossed, &walked.crossed);
+    judge_list(tally, ray, &truth.touched, &walked.touched);
+    judge_closest(tally, ray, &truth.touched, walked);
 }
 
 /// A list of hits, against those on the ray's line by rising id.

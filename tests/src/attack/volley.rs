@@ -15,17 +15,19 @@ pub struct Volley {
     pub packet: Option<OwnedPacket>,
     /// Whether all rays are known to begin in the inside of a closed mesh.
     pub from_inside: bool,
+    /// Whether it is also put to who is slow: every triangle without a tree, and the packets that can be watched.
+    pub to_the_slow: bool,
 }
 
 impl Volley {
     /// Rays that share nothing.
     pub fn of_rays(rays: Vec<Ray>) -> Self {
-        Self { rays, packet: None, from_inside: false }
+        Self { rays, packet: None, from_inside: false, to_the_slow: true }
     }
 
     /// The rays of a packet.
     pub fn of_packet(packet: OwnedPacket) -> Self {
-        Self { rays: packet.rays(), packet: Some(packet), from_inside: false }
+        Self { rays: packet.rays(), packet: Some(packet), from_inside: false, to_the_slow: true }
     }
 
     /// Only the rays of these numbers.
@@ -35,6 +37,7 @@ impl Volley {
             rays: indices.iter().map(|&index| self.rays[index]).collect(),
             packet: self.packet.as_ref().map(|packet| packet.only(indices)),
             from_inside: self.from_inside,
+            to_the_slow: self.to_the_slow,
         }
     }
 }

@@ -7,7 +7,7 @@
 
 use indicatif::{HumanCount, ProgressBar, ProgressStyle};
 use kdray_tests::attack::campaign::Outcome;
-use kdray_tests::attack::{Campaign, Limits, Target, report, targets};
+use kdray_tests::attack::{AnyTarget, Campaign, Limits, report, targets};
 use kdray_tests::command_line::Arguments;
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -34,7 +34,7 @@ fn main() -> io::Result<ExitCode> {
     let rays = number(&arguments, "--rays").unwrap_or(endless);
     let mut out = io::stdout();
     let targets = chosen(&arguments, if is_quick { 0 } else { usize::MAX });
-    let triangles: usize = targets.iter().map(|target| target.mesh.triangles().len()).sum();
+    let triangles: usize = targets.iter().map(AnyTarget::triangles).sum();
     writeln!(
         out,
         "seed {seed}: {} targets, {} triangles",
@@ -78,11 +78,11 @@ fn number<T: std::str::FromStr>(arguments: &Arguments, option: &str) -> Option<T
 }
 
 /// The targets whose names contain one of those given; scenes of at most so many triangles.
-fn chosen(arguments: &Arguments, most: usize) -> Vec<Target> {
+fn chosen(arguments: &Arguments, most: usize) -> Vec<AnyTarget> {
     let scenes = if most > 0 { targets::of_scenes(most) } else { Vec::new() };
     let mut targets = [targets::made(), scenes].concat();
     if let Some(names) = arguments.value("--targets") {
-        targets.retain(|target| names.split(',').any(|name| target.name.contains(name)));
+        targets.retain(|target| names.split(',').any(|name| target.name().contains(name)));
     }
     targets
 }
@@ -108,7 +108,7 @@ fn tell(outcomes: &[Outcome], took: Duration, out: &mut impl Write) -> io::Resul
         let example = outcome.example.as_deref().unwrap_or("trees or hits differ between threads");
         writeln!(out, "\n{}: {example}", outcome.name)?;
         if let Some(case) = &outcome.case {
-            writeln!(out, "The smallest case found, as a file for tests/repro:\n\n{case}")?;
+            writeln!(out, "The smallest case found, as a file for tests/repro:\n\n{}", case.text)?;
         }
     }
     Ok(())

@@ -113,7 +113,9 @@ fn surely_missed<const K: usize>(points: &[[f64; K]], ray: &Ray<K>) -> bool {
         std::array::from_fn(|k| 0.5 * ranges[k].0 + 0.5 * ranges[k].1 - ray.origin[k]);
     let length_squared = squared(ray.direction);
     let along: f64 = (0..K).map(|k| to_center[k] * ray.direction[k]).sum();
-    let off_squared = squared(to_center) - along * along / length_squared;
+    // Divided first, so that a square does not vanish where its quotient would not.
+    let along = along / length_squared.sqrt();
+    let off_squared = squared(to_center) - along * along;
     length_squared.is_normal()
         && off_squared > 1.01 * radius_squared + 1e-9 * squared(to_center)
         && radius_squared.is_normal()

@@ -189,7 +189,7 @@ mod tests {
             for Shot { ray, from_inside, .. } in &case.shots {
                 let numbers = ray.origin.iter().chain(&ray.direction);
                 assert!(numbers.into_iter().all(|&x| f64::from(x as f32) == x), "{ray:?}");
-                assert!(*from_inside || !case.target.bounds.contains(ray.origin), "{ray:?}");
+                assert!(*from_inside || !case.target.extent.contains(ray.origin), "{ray:?}");
                 assert_eq!(ray.check(), Ok(()));
             }
         }

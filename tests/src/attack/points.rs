@@ -1,0 +1,232 @@
+//! Queries about points: at vertices, edges and faces, one unit in the last place beside them, around the mesh and far
+//! away.
+
+use super::points_truth::{PointTruth, is_difference_exact};
+use super::{Tally, Target};
+use crate::flat::Flat;
+use crate::oracle::{exact_distance_squared, is_distance};
+use crate::points::beside;
+use crate::rays::Archer;
+use kdray::{ClosestPoint, Scene, Side};
+use num_traits::Zero;
+use rand::RngExt;
+use rand_pcg::Pcg64Mcg;
+
+/// What a distance may be off by, over the distance to the farthest corner: as it is documented.
+const DISTANCE_ERROR: f64 = 1.0 / (1_u64 << 46) as f64;
+
+/// What a winding number may be off by, more than is documented.
+const WINDING_ERROR: f64 = 0.01;
+
+/// How far away the farthest points are, in diagonals.
+const FAR: f64 = 1e6;
+
+/// A point, and what is asked about it.
+#[derive(Clone, Copy, Debug)]
+pub struct Question {
+    /// The point.
+    pub point: [f64; 3],
+    /// Another one, that may be seen from it.
+    pub other: [f64; 3],
+    /// A triangle, a point of it, and whether the way leads off its back.
+    pub through: (u32, [f64; 2], Side),
+}
+
+/// What kdray says.
+#[derive(Clone, Copy, Debug)]
+pub struct Said {
+    /// `closest_point`.
+    pub closest: Option<ClosestPoint>,
+    /// `contains`.
+    pub inside: bool,
+    /// `signed_distance`.
+    pub signed: Option<f64>,
+    /// `winding_number`.
+    pub winding: f64,
+    /// `visible`, both ways.
+    pub visible: [bool; 2],
+    /// `thickness`.
+    pub thickness: Option<f64>,
+}
+
+impl Question {
+    /// The question of a number about a target.
+    pub fn new(target: &Target, random: &mut Pcg64Mcg) -> Self {
+        let mut archer = Archer::within(&target.mesh, target.extent.ends(), random.random());
+        let on_edge = |(a, b): ([f64; 3], [f64; 3]), s: f64| {
+            std::array::from_fn(|k| a[k] + s * (b[k] - a[k]))
+        };
+        let mut point = match random.random_range(0..8) {
+            0 | 1 => archer.corner(),
+            2 => on_edge(archer.edge(), 0.5),
+            3 => on_edge(archer.edge(), random.random()),
+            4 | 5 => {
+                let corners = archer.corners();
+                on_edge((on_edge((corners[0], corners[1]), 0.5), corners[2]), random.random())
+            }
+            6 => archer.around(0.3),
+            _ => archer.point_afar(FAR),
+        };
+        // One of the point and its six neighbours.
+        let neighbour = random.random_range(0..7);
+        if neighbour > 0 {
+            point = beside(&point)[neighbour - 1];
+        }
+        let other = if random.random() { archer.corner() } else { archer.around(0.5) };
+        let other = other.map(|x| target.rounded(x));
+        let id = random.random_range(0..target.mesh.triangles().len() as u32);
+        let (u, v) = (random.random_range(0.05..0.5), random.random_range(0.05..0.45));
+        let side = if random.random() { Side::Front } else { Side::Back };
+        Self { point, other, through: (id, [u, v], side) }
+    }
+
+    /// The point, or one next to it whose difference to the other is not rounded.
+    fn seen(&self, target: &Target) -> [f64; 3] {
+        let is_exact = (0..3).all(|k| is_difference_exact(self.other[k], self.point[k]));
+        if is_exact { self.point } else { self.point.map(|x| target.rounded(x)) }
+    }
+}
+
+impl Said {
+    /// The answers of a scene.
+    pub fn by(scene: &Scene, target: &Target, question: &Question) -> Self {
+        let Question { point, other, through: (id, [u, v], side) } = *question;
+        let seen = question.seen(target);
+        Self {
+            closest: scene.closest_point(point),
+            inside: scene.contains(point),
+            signed: scene.signed_distance(point),
+            winding: scene.winding_number(point),
+            visible: [scene.visible(seen, other), scene.visible(other, seen)],
+            thickness: scene.thickness(id, u, v, side),
+        }
+    }
+}
+
+/// Asks as many questions, and counts what is wrong.
+pub fn attack(
+    scene: &Scene,
+    target: &Target,
+    flat: &Flat,
+    count: u64,
+    random: &mut Pcg64Mcg,
+) -> Tally {
+    let mut tally = Tally::default();
+    let truth = PointTruth::new(target, flat);
+    for _ in 0..count {
+        let question = Question::new(target, random);
+        let said = Said::by(scene, target, &question);
+        judge(&mut tally, target, &truth, &question, &said);
+    }
+    tally
+}
+
+/// Counts what is wrong of the answers to a question.
+pub fn judge(
+    tally: &mut Tally,
+    target: &Target,
+    truth: &PointTruth<'_>,
+    question: &Question,
+    said: &Said,
+) {
+    tally.points += 1;
+    let mut check = |is_right: bool, what: &dyn Fn() -> String| {
+        if !is_right {
+            tally.misjudged += 1;
+            tally.tell(question, || format!("{}: {said:?}", what()));
+        }
+    };
+    let Some(squared) = truth.distance_squared(question.point) else { return };
+    let Some(closest) = said.closest else {
+        return check(false, &|| "no closest point".to_owned());
+    };
+    let corners = target.mesh.corners(closest.primitive_id);
+    let error = DISTANCE_ERROR * farthest(question.point, &corners);
+    let is_on_surface = squared.is_zero();
+    check(is_distance(closest.distance, error, &squared), &|| format!("squared: {squared}"));
+    check((closest.distance == 0.0) == is_on_surface, &|| format!("on it: {is_on_surface}"));
+    // The place is that triangle's, and as far away as is said: rounded to f64, all of them.
+    let largest = target.extent.largest();
+    let place_error = error + 8.0 * f64::EPSILON * largest + f64::from_bits(8);
+    let off = exact_distance_squared(closest.point, &corners);
+    check(is_distance(0.0, place_error, &off), &|| "the place is off the triangle".to_owned());
+    let way = (0..3).map(|k| closest.point[k] - question.point[k]).fold(0.0, f64::hypot);
+    let is_as_far = (way - closest.distance).abs() <= 2.0 * place_error + 1e-15 * way;
+    check(is_as_far, &|| format!("the place is {way:e} away"));
+
+    let off_surface = truth.contains_off_surface(question.point);
+    if let Some(is_inside) = if is_on_surface { Some(true) } else { off_surface } {
+        check(said.inside == is_inside, &|| format!("inside: {is_inside}"));
+    }
+    let is_negative = said.inside && closest.distance > 0.0;
+    let signed = if is_negative { -closest.distance } else { closest.distance };
+    check(said.signed == Some(signed), &|| format!("signed distance: {signed:e}"));
+    if let Some(winding) = truth.winding_number(question.point).filter(|_| !is_on_surface) {
+        // So near to a surface that the sum may have it on either side.
+        let is_leaping = closest.distance <= 1e-9 * largest;
+        let is_right = is_leaping || (said.winding - winding).abs() < WINDING_ERROR;
+        check(is_right, &|| format!("winding number: {winding}"));
+    }
+    if let Some(is_visible) = truth.is_visible(question.seen(target), question.other) {
+        check(said.visible == [is_visible; 2], &|| format!("visible: {is_visible}"));
+    }
+    let (id, weights, side) = question.through;
+    let along_normal = if side == Side::Front { -1.0 } else { 1.0 };
+    if let Some(thickness) = truth.thickness(id, weights, along_normal) {
+        let is_right = match (thickness, said.thickness) {
+            (Some(a), Some(b)) => (a - b).abs() <= 1e-6 * a + 1e-9 * largest,
+            (a, b) => a.is_none() && b.is_none(),
+        };
+        check(is_right, &|| format!("thickness: {thickness:?}"));
+    }
+}
+
+fn farthest(point: [f64; 3], corners: &[[f32; 3]; 3]) -> f64 {
+    let away = |p: &[f32; 3]| (0..3).map(|k| f64::from(p[k]) - point[k]).fold(0.0, f64::hypot);
+    corners.iter().map(away).fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::meshes;
+    use crate::rays::random;
+    use kdray::BuildOptions;
+
+    /// How many answers are wrong once they are spoilt.
+    fn wrong(spoil: impl Fn(&mut Said)) -> u64 {
+        let target = Target::new("torus", meshes::torus(10, 7));
+        let flat = Flat::new(&target.mesh);
+        let scene = Scene::build(target.mesh.clone(), &BuildOptions::default()).unwrap();
+        let truth = PointTruth::new(&target, &flat);
+        let (mut tally, mut random) = (Tally::default(), random(3));
+        for _ in 0..150 {
+            let question = Question::new(&target, &mut random);
+            let mut said = Said::by(&scene, &target, &question);
+            spoil(&mut said);
+            judge(&mut tally, &target, &truth, &question, &said);
+        }
+        tally.misjudged
+    }
+
+    #[test]
+    fn every_wrong_answer_is_found() {
+        assert_eq!(wrong(|_| {}), 0);
+        type Spoil = fn(&mut Said);
+        let spoils: [Spoil; 9] = [
+            |said| said.closest = None,
+            |said| said.closest.iter_mut().for_each(|it| it.distance *= 1.0 + 1e-12),
+            |said| said.closest.iter_mut().for_each(|it| it.primitive_id ^= 1),
+            |said| said.closest.iter_mut().for_each(|it| it.point[0] += 1e-12),
+            |said| said.inside = !said.inside,
+            |said| said.signed = said.signed.map(f64::abs),
+            |said| said.winding += 0.02,
+            |said| said.visible[1] = !said.visible[1],
+            |said| said.thickness = said.thickness.map(|t| 1.001 * t),
+        ];
+        for (index, spoil) in spoils.into_iter().enumerate() {
+            let found = wrong(spoil);
+            assert!(found > 20, "{index}: {found}");
+        }
+    }
+}

@@ -1,0 +1,150 @@
+//! What is true of points: distances in rational arithmetic, sides by counting, and what is in the way.
+
+use super::Truth;
+use super::target::Target;
+use super::truth::Place;
+use crate::flat::Flat;
+use crate::oracle::{exact_distance_squared, exact_triangle_hit};
+use glam::DVec3;
+use kdray::primitives::HitRule;
+use kdray::{Interval, Ray};
+use num_rational::BigRational;
+use num_traits::{FromPrimitive, One, Signed, ToPrimitive};
+
+/// Triangles of more are too many to sum over for each point.
+const FEW: usize = 2000;
+
+/// What is known of a mesh.
+pub struct PointTruth<'a> {
+    target: &'a Target,
+    flat: &'a Flat,
+}
+
+impl<'a> PointTruth<'a> {
+    /// The truth about a target.
+    pub fn new(target: &'a Target, flat: &'a Flat) -> Self {
+        Self { target, flat }
+    }
+
+    /// The square of the distance to the nearest triangle; `None` if there is none.
+    ///
+    /// Triangles are left out whose box is surely farther away than one that is known.
+    pub fn distance_squared(&self, point: [f64; 3]) -> Option<BigRational> {
+        let mut nearest: Option<(BigRational, f64)> = None;
+        let mut last = None;
+        let scale = self.flat.scale();
+        let square = BigRational::from_f64(scale)?.pow(2);
+        self.flat.each_near(point, |corners, _| {
+            let reach = nearest.as_ref().map_or(f64::INFINITY, |(_, reach)| *reach);
+            // Some meshes have the same triangle again and again.
+            if last == Some(*corners) || distance_to_box(point, corners) > reach {
+                return reach;
+            }
+            last = Some(*corners);
+            let exact = exact_distance_squared(point, corners);
+            if nearest.as_ref().is_some_and(|(least, _)| *least <= exact) {
+                return reach;
+            }
+            // The square may be beyond all f64 where the distance is not.
+            let distance = (&exact * &square).to_f64().unwrap_or(f64::INFINITY).sqrt() / scale;
+            let reach = distance * (1.0 + 1e-9) + f64::MIN_POSITIVE;
+            nearest = Some((exact, reach));
+            reach
+        });
+        nearest.map(|(exact, _)| exact)
+    }
+
+    /// Whether a point that is not on the surface is inside: by the parity of crossings where the mesh is closed,
+    /// else by the winding number, unless that is too near to a half, or too long a sum.
+    pub fn contains_off_surface(&self, point: [f64; 3]) -> Option<bool> {
+        if self.target.is_closed {
+            let ray = Ray { interval: Interval::LINE, ..Ray::new(point, [0.25, 0.5, 1.0]) };
+            let crossed = Truth::of(self.flat, &ray).crossed;
+            return Some(crossed.iter().filter(|hit| hit.t > 0.0).count() % 2 == 1);
+        }
+        let number = self.winding_number(point)?;
+        ((number - 0.5).abs() > 0.02).then_some(number > 0.5)
+    }
+
+    /// The sum of all solid angles, as a share of the sphere (van Oosterom and Strackee 1983); `None` if it is
+    /// too long.
+    pub fn winding_number(&self, point: [f64; 3]) -> Option<f64> {
+        let mesh = &self.target.mesh;
+        let count = mesh.triangles().len();
+        let angle = |id: u32| {
+            let [a, b, c] =
+                mesh.corners(id).map(|p| DVec3::from(p.map(f64::from)) - DVec3::from(point));
+            let [x, y, z] = [a, b, c].map(DVec3::length);
+            (a.dot(b.cross(c))).atan2(x * y * z + a.dot(b) * z + b.dot(c) * x + c.dot(a) * y)
+        };
+        let sum = || (0..count as u32).map(angle).sum::<f64>() / std::f64::consts::TAU;
+        (count <= FEW).then(sum)
+    }
+
+    /// Whether nothing is between two points; `None` if their difference is not an f64.
+    pub fn is_visible(&self, from: [f64; 3], to: [f64; 3]) -> Option<bool> {
+        let is_exact = (0..3).all(|k| is_difference_exact(to[k], from[k]));
+        let ray = Ray { interval: Interval::LINE, ..Ray::through(from, to) };
+        if !is_exact {
+            return None;
+        }
+        let between = Interval { t_min: f64::from_bits(1), t_max: 1.0 };
+        let is_in_the_way = |id: u32| {
+            let corners = self.target.mesh.corners(id);
+            let hit = exact_triangle_hit(&corners, id, &ray, HitRule::Touching);
+            hit.is_some_and(|hit| hit.t.is_positive() && hit.t < BigRational::one())
+        };
+        let touched = Truth::of(self.flat, &ray).touched;
+        Some(!touched.iter().any(|hit| match hit.place(between) {
+            Place::Inside => true,
+            Place::AtEnd => is_in_the_way(hit.id),
+            Place::Outside => false,
+        }))
+    }
+
+    /// How far it is from a point of a triangle to the next one behind it, on the given side of its normal;
+    /// `None` where the answer hangs on the last digits of the point or the normal.
+    pub fn thickness(&self, id: u32, [u, v]: [f64; 2], along_normal: f64) -> Option<Option<f64>> {
+        let corners = |id: u32| self.target.mesh.corners(id).map(|p| DVec3::from(p.map(f64::from)));
+        let unit_normal = |[a, b, c]: [DVec3; 3]| {
+            let normal = (b - a).cross(c - a);
+            let is_fat = normal.length() > 1e-3 * (b - a).length() * (c - a).length();
+            is_fat.then(|| normal.normalize())
+        };
+        let [a, b, c] = corners(id);
+        let direction = unit_normal([a, b, c])? * along_normal;
+        let start = a + u * (b - a) + v * (c - a);
+        let ray = Ray { interval: Interval::LINE, ..Ray::new(start, direction) };
+        let held = self.target.mesh.corners(id);
+        let is_other = |id: u32| {
+            let others = self.target.mesh.corners(id);
+            !held.iter().all(|corner| others.contains(corner))
+        };
+        let truth = Truth::of_those(self.flat, &ray, is_other);
+        let doubt = 1e-9 * self.target.extent.largest();
+        let is_doubtful = truth.touched.iter().any(|hit| {
+            let normal = unit_normal(corners(hit.id));
+            hit.t.abs() < doubt || normal.is_none_or(|normal| normal.dot(direction).abs() < 1e-3)
+        });
+        let behind = truth.touched.iter().map(|hit| hit.t).filter(|&t| t > 0.0);
+        let nearest = behind.min_by(f64::total_cmp);
+        (!truth.is_close && !is_doubtful).then_some(nearest)
+    }
+}
+
+/// Whether `a − b` is an f64: by what it takes to get a and b back (Knuth's TwoDiff).
+pub(super) fn is_difference_exact(a: f64, b: f64) -> bool {
+    let difference = a - b;
+    let b_again = a - difference;
+    let a_again = difference + b_again;
+    difference.is_finite() && (a - a_again) + (b_again - b) == 0.0
+}
+
+/// A distance that is not above that of the triangle's box.
+fn distance_to_box(point: [f64; 3], corners: &[[f32; 3]; 3]) -> f64 {
+    let off = |k: usize| {
+        let [a, b, c] = corners.map(|p| f64::from(p[k]));
+        (a.min(b).min(c) - point[k]).max(point[k] - a.max(b).max(c)).max(0.0)
+    };
+    off(0).hypot(off(1)).hypot(off(2)) * (1.0 - 1e-12)
+}

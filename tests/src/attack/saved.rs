@@ -1,0 +1,120 @@
+//! Tree files: whole ones answer as the scene does, damaged ones are refused.
+
+use super::answers::{Answers, Other, Said, Walked};
+use super::verdict::Judge;
+use super::{Tally, Volley};
+use kdray::memory::AlignedBytes;
+use kdray::primitives::HitRule;
+use kdray::{FileError, Scene};
+use rand::RngExt;
+use rand_pcg::Pcg64Mcg;
+use std::convert::Infallible;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+
+/// A way to read a file.
+type Read = fn(&[u8]) -> Result<Scene, FileError>;
+
+/// Saves a scene, reads it in both ways, and puts a volley to what comes back.
+pub fn attack(scene: &Scene, judge: &Judge<'_>, volley: &Volley) -> Tally {
+    let mut tally = Tally::default();
+    let bytes = saved(scene);
+    let ways: [(&str, Read); 2] = [("loaded", load), ("opened", open)];
+    let mut answers = Answers::of(scene, judge.flat, volley);
+    answers.others.clear();
+    for (name, read) in ways {
+        tally.files += 1;
+        match read(&bytes) {
+            Ok(again) => {
+                if saved(&again) != bytes {
+                    misread(&mut tally, || format!("{name}, and saved once more, it differs"));
+                }
+                let Answers { rays, others } = Answers::of(&again, judge.flat, volley);
+                let name = |what: &str| format!("{name}, {what}");
+                answers.others.extend(told(&rays, &name));
+                let others = others.into_iter();
+                answers.others.extend(others.map(|it| Other { name: name(&it.name), ..it }));
+            }
+            Err(error) => misread(&mut tally, || format!("{name}: {error}")),
+        }
+    }
+    // The rays themselves were judged before: only that all say the same is of interest.
+    let compared = judge.tally(volley, &answers);
+    Tally { differing: compared.differing, example: compared.example, ..Tally::default() }
+        .and(tally)
+}
+
+/// Damages a file as often, and counts how often that is not an error.
+pub fn damage(scene: &Scene, volley: &Volley, count: u64, random: &mut Pcg64Mcg) -> Tally {
+    let mut tally = Tally::default();
+    let whole = saved(scene);
+    for _ in 0..count {
+        let mut bytes = whole.clone();
+        let place = random.random_range(0..bytes.len());
+        match random.random_range(0..8) {
+            0 => bytes.truncate(place),
+            1 => bytes.extend_from_slice(&whole[..random.random_range(1..100)]),
+            2 => bytes[place..].fill(random.random()),
+            _ => bytes[place] ^= random.random_range(1..=255_u8),
+        }
+        if bytes == whole {
+            continue;
+        }
+        tally.files += 1;
+        let loaded = catch_unwind(|| load(&bytes).map(|_| ()));
+        if !matches!(loaded, Ok(Err(_))) {
+            misread(&mut tally, || format!("damaged at {place}, loaded: {loaded:?}"));
+        }
+        // Not all damage is seen by whoever trusts the file; but nothing may panic.
+        let asked = AssertUnwindSafe(|| {
+            if let Ok(scene) = open(&bytes) {
+                for ray in &volley.rays {
+                    let _ = (scene.closest_hit(ray), scene.any_hit(ray), scene.count(ray));
+                }
+            }
+        });
+        if catch_unwind(asked).is_err() {
+            misread(&mut tally, || format!("damaged at {place}, opened: it panics"));
+        }
+    }
+    tally
+}
+
+fn misread(tally: &mut Tally, what: impl FnOnce() -> String) {
+    tally.misread += 1;
+    tally.tell(&"a tree file", what);
+}
+
+/// What the leaf walk says, as a kernel says it.
+fn told(rays: &[Walked], name: &dyn Fn(&str) -> String) -> Vec<Other> {
+    let other = |what: &str, said| Other { name: name(what), said };
+    let crossed = rays.iter().map(|ray| ray.crossed.clone()).collect();
+    let touched = rays.iter().map(|ray| ray.touched.clone()).collect();
+    vec![
+        other("closest hit", Said::Closest(rays.iter().map(|ray| ray.closest).collect())),
+        other("any hit", Said::Any(rays.iter().map(|ray| ray.any).collect())),
+        other("all hits", Said::All(HitRule::Crossing, crossed)),
+        other("all touched", Said::All(HitRule::Touching, touched)),
+    ]
+}
+
+/// The bytes of a scene's file.
+pub fn saved(scene: &Scene) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let write = |part: &[u8]| {
+        bytes.extend_from_slice(part);
+        Ok::<(), Infallible>(())
+    };
+    match scene.save(write) {
+        Ok(()) => bytes,
+        Err(never) => match never {},
+    }
+}
+
+fn load(bytes: &[u8]) -> Result<Scene, FileError> {
+    Scene::load(Arc::new(AlignedBytes::from(bytes)))
+}
+
+fn open(bytes: &[u8]) -> Result<Scene, FileError> {
+    Scene::open(Arc::new(AlignedBytes::from(bytes)))
+}
