@@ -1,5 +1,6 @@
 //! One file for each bug that was fixed, named for what it was.
 
+mod crossings_where_rays_begin;
 mod hits_of_dead_rays;
 mod lanes_behind_the_last_ray;
 mod order_of_waiting_nodes;

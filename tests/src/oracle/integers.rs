@@ -60,6 +60,13 @@ impl<const K: usize> Vector<K> {
     }
 }
 
+impl<const K: usize> Vector<K> {
+    /// One along an axis.
+    pub(super) fn step(axis: usize) -> Self {
+        Self(std::array::from_fn(|k| BigInt::from(u8::from(k == axis))))
+    }
+}
+
 impl Vector<3> {
     pub(super) fn cross(&self, other: &Self) -> Self {
         let (a, b) = (&self.0, &other.0);

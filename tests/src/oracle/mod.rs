@@ -3,8 +3,7 @@
 //! Nothing here calls `kdray::exact` or uses its formulas. The line of the ray is put into the
 //! plane of the triangle (the line of the segment), and the barycentric weights of the point where
 //! they meet are solved for; a closed primitive is hit where none of them is negative. For
-//! [`HitRule::Crossing`] the same is done with a direction that is a polynomial in an
-//! infinitesimal ε.
+//! [`HitRule::Crossing`] the same is done with an origin that is a polynomial in an infinitesimal ε.
 
 mod compare;
 mod integers;
@@ -39,8 +38,7 @@ pub struct ExactHit {
     pub side: Side,
 }
 
-/// What decides whether a line of some direction meets a primitive: numbers that are linear in the
-/// direction.
+/// What decides whether a line meets a primitive: numbers that are linear in the line's origin.
 struct Terms<const N: usize> {
     /// Zero for a direction parallel to the primitive; negative for one from its front.
     along_normal: BigInt,
@@ -48,44 +46,31 @@ struct Terms<const N: usize> {
     weights: [BigInt; N],
 }
 
-/// Whether the line from the ray's origin hits by `rule`, and if so the terms of its direction.
+/// Whether the line hits by `rule`, and if so its terms.
 ///
-/// The turned ray has the direction d + ε·d_k·e_u + ε²·d_k·e_v, in 2-D without the last term.
-/// Since terms are linear in the direction, those of d_k·e_u are the coefficients of ε.
+/// The moved ray has the origin o + (ε, ε², ε³), in 2-D without the last. Since weights are linear in the
+/// origin, what they gain by a step along an axis, as `gains` says, is the coefficient of that power of ε.
 fn decide<const K: usize, const N: usize>(
-    direction: &Vector<K>,
+    plain: Terms<N>,
     rule: HitRule,
-    terms: impl Fn(&Vector<K>) -> Terms<N>,
+    gains: impl Fn(&Vector<K>) -> [BigInt; N],
 ) -> Option<Terms<N>> {
-    let plain = terms(direction);
     let side = sign(&plain.along_normal);
     if side == Sign::NoSign {
         return None;
     }
-    let turned: Vec<Terms<N>> = match rule {
+    let moves: Vec<[BigInt; N]> = match rule {
         HitRule::Touching => Vec::new(),
-        HitRule::Crossing => turns(direction).iter().map(&terms).collect(),
+        HitRule::Crossing => (0..K).map(|axis| gains(&Vector::step(axis))).collect(),
     };
     let hit = (0..N).all(|i| {
-        let coefficients = std::iter::once(&plain).chain(&turned).map(|t| sign(&t.weights[i]));
-        match coefficients.into_iter().find(|&sign| sign != Sign::NoSign) {
+        let all = std::iter::once(&plain.weights).chain(&moves);
+        match all.map(|weights| sign(&weights[i])).find(|&sign| sign != Sign::NoSign) {
             Some(first) => first == side,
             None => rule == HitRule::Touching,
         }
     });
     hit.then_some(plain)
-}
-
-/// d_k·e_u and d_k·e_v, with k the axis of the largest component, the first of equals.
-fn turns<const K: usize>(direction: &Vector<K>) -> Vec<Vector<K>> {
-    let size = |axis: usize| direction.0[axis].magnitude();
-    let k = (1..K).fold(0, |k, axis| if size(axis) > size(k) { axis } else { k });
-    let turn = |step: usize| {
-        let mut turn = Vector(std::array::from_fn(|_| BigInt::ZERO));
-        turn.0[(k + step) % K] = direction.0[k].clone();
-        turn
-    };
-    (1..K).map(turn).collect()
 }
 
 /// The side that a line with these terms comes from.

@@ -1,8 +1,9 @@
 //! A line and a segment in the plane.
 
-use super::{ExactHit, Terms, decide, integers, ratio, share, side_of, surely_missed};
+use super::{ExactHit, Terms, Vector, decide, integers, ratio, share, side_of, surely_missed};
 use kdray::Ray;
 use kdray::primitives::HitRule;
+use num_bigint::BigInt;
 
 /// Where the line of `ray` hits the segment by `rule`, whatever the ray's interval.
 pub fn exact_segment_hit(
@@ -22,13 +23,18 @@ pub fn exact_segment_hit(
     let normal = ab.left();
     let length_squared = ab.dot(&ab);
     let height = normal.dot(&a.minus(&o));
-    let terms = decide(&d, rule, |direction| {
-        let along_normal = normal.dot(direction);
-        let q = o.minus(&a).times(&along_normal).plus(&direction.times(&height));
+    let along_normal = normal.dot(&d);
+    let weights = |q: &Vector<2>, total: BigInt| {
         let u = q.dot(&ab);
-        let w = &along_normal * &length_squared - &u;
-        Terms { along_normal, weights: [w, u] }
-    })?;
+        [total - &u, u]
+    };
+    let q = o.minus(&a).times(&along_normal).plus(&d.times(&height));
+    let plain = weights(&q, &along_normal * &length_squared);
+    let gains = |step: &Vector<2>| {
+        let gain = step.times(&along_normal).minus(&d.times(&normal.dot(step)));
+        weights(&gain, BigInt::ZERO)
+    };
+    let terms = decide(Terms { along_normal: along_normal.clone(), weights: plain }, rule, gains)?;
     let (u, side) = (share(&terms, 1), side_of(&terms));
     Some(ExactHit { primitive_id: id, t: ratio(height, terms.along_normal), u, v: 0.0, side })
 }

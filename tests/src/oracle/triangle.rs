@@ -1,8 +1,9 @@
 //! A line and a triangle in space.
 
-use super::{ExactHit, Terms, decide, integers, ratio, share, side_of, surely_missed};
+use super::{ExactHit, Terms, Vector, decide, integers, ratio, share, side_of, surely_missed};
 use kdray::primitives::HitRule;
 use kdray::{Coordinate, Ray};
+use num_bigint::BigInt;
 
 /// Where the line of `ray` hits the triangle by `rule`, whatever the ray's interval.
 pub fn exact_triangle_hit<T: Coordinate>(
@@ -24,14 +25,19 @@ pub fn exact_triangle_hit<T: Coordinate>(
     // o + t d lies in the plane for t = height / (normal · d). From a it is at q / (normal · d), of
     // which the part along ab is (q x ac) · normal, and that along ac (ab x q) · normal, over
     // normal².
-    let terms = decide(&d, rule, |direction| {
-        let along_normal = normal.dot(direction);
-        let q = o.minus(&a).times(&along_normal).plus(&direction.times(&height));
-        let u = q.cross(&ac).dot(&normal);
-        let v = ab.cross(&q).dot(&normal);
-        let w = &along_normal * &normal_squared - &u - &v;
-        Terms { along_normal, weights: [w, u, v] }
-    })?;
+    let along_normal = normal.dot(&d);
+    // Moved by s, the line meets the plane elsewhere by s − d · (normal · s) / (normal · d).
+    let weights = |q: &Vector<3>, total: BigInt| {
+        let (u, v) = (q.cross(&ac).dot(&normal), ab.cross(q).dot(&normal));
+        [total - &u - &v, u, v]
+    };
+    let q = o.minus(&a).times(&along_normal).plus(&d.times(&height));
+    let plain = weights(&q, &along_normal * &normal_squared);
+    let gains = |step: &Vector<3>| {
+        let gain = step.times(&along_normal).minus(&d.times(&normal.dot(step)));
+        weights(&gain, BigInt::ZERO)
+    };
+    let terms = decide(Terms { along_normal: along_normal.clone(), weights: plain }, rule, gains)?;
     let (u, v, side) = (share(&terms, 1), share(&terms, 2), side_of(&terms));
     Some(ExactHit { primitive_id: id, t: ratio(height, terms.along_normal), u, v, side })
 }

@@ -2,7 +2,7 @@
 //! and kdray is judged like everyone else.
 //!
 //! Whether a ray that only grazes a surface hits it depends on what a hit is. So a ray counts as lost only
-//! if it crosses the surface whichever way it is turned by an infinitesimal angle, and a hit as phantom
+//! if it crosses the surface whichever way it is moved by an infinitesimal, and a hit as phantom
 //! only if the ray does not even touch the surface. The number of hits must be even from outside and odd
 //! from inside, which holds for every way to count each crossing once.
 
@@ -17,7 +17,7 @@ use rayon::prelude::*;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Known {
     aim: Aim,
-    /// Whether it crosses the surface, whichever way it is turned.
+    /// Whether it crosses the surface, whichever way it is moved.
     crosses: bool,
     /// Whether it touches the surface at all.
     touches: bool,
@@ -64,8 +64,8 @@ pub fn truths(case: &Case) -> Vec<Known> {
     case.shots.par_iter().map(known).collect()
 }
 
-/// The mesh in mirrors perpendicular to the axes of −1: the oracle, which turns all rays alike, sees the
-/// surface turned otherwise there.
+/// The mesh in mirrors perpendicular to the axes of −1: the oracle, which moves all rays alike, moves them
+/// otherwise there.
 fn mirrored(mesh: &TriangleMesh, mirror: [f64; 3]) -> TriangleMesh {
     let point = |p: &[f32; 3]| std::array::from_fn(|k| p[k] * mirror[k] as f32);
     let vertices = mesh.vertices().iter().map(point).collect();

@@ -55,21 +55,32 @@ fn add_triple_product(sum: &mut Accumulator, a: [f64; 3], b: [f64; 3], c: [f64; 
     }
 }
 
-/// The sign of the edge function of (p, q), divided by the direction's main component, for the
-/// turned ray (see [`crate::exact`]); `Equal` only if the line of p and q passes the origin.
-/// `sign` is that of the edge function for the ray as it is.
-pub fn turned_edge_sign(ray: &Ray<3>, p: [f64; 3], q: [f64; 3], sign: Ordering) -> Ordering {
-    let k = main_axis(&ray.direction);
-    let (u, v) = ((k + 1) % 3, (k + 2) % 3);
-    if sign != Ordering::Equal {
-        return oriented(sign, ray.direction[k]);
-    }
-    let in_integers = around_origin(ray.origin, p, q);
-    let component = |(i, j): (usize, usize)| match &in_integers {
-        Some([p, q]) => (q[i] * p[j]).cmp(&(q[j] * p[i])),
-        None => cross_component(ray.origin, q, p, (i, j)).sign(),
+/// The sign of the edge function of (p, q) for the moved ray (see [`crate::exact`]); `Equal` only if the edge
+/// lies on the line of the ray. `sign` is that of the edge function for the ray as it is.
+pub fn moved_edge_sign(ray: &Ray<3>, p: [f64; 3], q: [f64; 3], sign: Ordering) -> Ordering {
+    let in_integers = on_lattice(ray.direction).zip(around_origin(ray.origin, p, q));
+    // Component i of (q − p) x d, with j and k behind it in cyclic order.
+    let component = |i: usize| {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        match &in_integers {
+            Some((d, [p, q])) => {
+                let d = d.map(i128::from);
+                ((q[j] - p[j]) * d[k]).cmp(&((q[k] - p[k]) * d[j]))
+            }
+            None => crossed_component(ray.direction, p, q, (j, k)).sign(),
+        }
     };
-    component((v, k)).then_with(|| component((k, u)))
+    sign.then_with(|| component(0)).then_with(|| component(1)).then_with(|| component(2))
+}
+
+/// (q_j − p_j) d_k − (q_k − p_k) d_j.
+fn crossed_component(d: [f64; 3], p: [f64; 3], q: [f64; 3], (j, k): (usize, usize)) -> Accumulator {
+    let mut sum = Accumulator::default();
+    sum.add([q[j], d[k], 1.0]);
+    sum.subtract([p[j], d[k], 1.0]);
+    sum.subtract([q[k], d[j], 1.0]);
+    sum.add([p[k], d[j], 1.0]);
+    sum
 }
 
 /// a'_i b'_j − a'_j b'_i with a' = a − o and b' = b − o: the component of a' x b' that is
@@ -99,25 +110,12 @@ pub fn side_of_ray(ray: &Ray<2>, p: [f64; 2]) -> Accumulator {
     sum
 }
 
-/// In 2-D: the sign of d x p' for the ray turned by an infinitesimal ε in its slope, divided by the
-/// main component of the direction; `Equal` only if p is the ray's origin.
-pub fn turned_side_sign(ray: &Ray<2>, p: [f64; 2], sign: Ordering) -> Ordering {
-    let k = main_axis(&ray.direction);
-    if sign != Ordering::Equal {
-        return oriented(sign, ray.direction[k]);
-    }
-    // d x p' over d_k is ±(p'_u − slope · p'_k): turning subtracts ±ε · p'_k.
-    let along = p[k].partial_cmp(&ray.origin[k]).unwrap_or(Ordering::Equal);
-    if k == 0 { along.reverse() } else { along }
-}
-
-fn oriented(sign: Ordering, direction: f64) -> Ordering {
-    if direction < 0.0 { sign.reverse() } else { sign }
-}
-
-/// The axis of the largest component; the first of equals.
-fn main_axis<const K: usize>(direction: &[f64; K]) -> usize {
-    (1..K).fold(0, |k, i| if direction[i].abs() > direction[k].abs() { i } else { k })
+/// In 2-D: the sign of d x p' for the moved ray (see [`crate::exact`]), which no point is on. `sign` is that
+/// for the ray as it is.
+pub fn moved_side_sign(ray: &Ray<2>, sign: Ordering) -> Ordering {
+    // Moved by s, d x p' loses d x s: of s = (ε, ε²), that is d_x ε² − d_y ε.
+    let [x, y] = ray.direction.map(|d| d.partial_cmp(&0.0).unwrap_or(Ordering::Equal));
+    sign.then(y).then(x.reverse())
 }
 
 #[cfg(test)]
@@ -140,15 +138,30 @@ mod tests {
     }
 
     #[test]
-    fn the_turned_ray_is_on_opposite_sides_of_an_edge_seen_both_ways() {
+    fn the_moved_ray_is_on_opposite_sides_of_an_edge_seen_both_ways() {
         let equal = Ordering::Equal;
-        for (p, q) in [([-1.0, 0.0, 5.0], [2.0, 0.0, 3.0]), ([0.0, 1.0, 2.0], [0.0, -3.0, 4.0])] {
-            let sign = turned_edge_sign(&RAY, p, q, equal);
+        let ahead = [([-1.0, 0.0, 5.0], [2.0, 0.0, 3.0]), ([0.0, 1.0, 2.0], [0.0, -3.0, 4.0])];
+        let from_origin = (RAY.origin, [1.0, 2.0, 3.0]);
+        for (p, q) in ahead.into_iter().chain([from_origin]) {
+            let sign = moved_edge_sign(&RAY, p, q, equal);
             assert_ne!(sign, equal);
-            assert_eq!(turned_edge_sign(&RAY, q, p, equal), sign.reverse());
+            assert_eq!(moved_edge_sign(&RAY, q, p, equal), sign.reverse());
         }
         let on_the_ray = ([0.0, 0.0, 1.0], [0.0, 0.0, 4.0]);
-        assert_eq!(turned_edge_sign(&RAY, on_the_ray.0, on_the_ray.1, equal), equal);
+        assert_eq!(moved_edge_sign(&RAY, on_the_ray.0, on_the_ray.1, equal), equal);
+    }
+
+    #[test]
+    fn moving_is_adding_a_little_to_the_origin() {
+        let (equal, little) = (Ordering::Equal, 2.0_f64.powi(-20));
+        let (p, q) = ([-1.0, -2.0, 5.0], [2.0, 4.0, 3.0]);
+        let s = [little, little * little, 0.0];
+        let moved = Ray { origin: std::array::from_fn(|k| RAY.origin[k] + s[k]), ..RAY };
+        assert_eq!(moved_edge_sign(&RAY, p, q, equal), edge_sign(&moved, p, q));
+        let ray = Ray::<2>::new([0.0, 0.0], [-1.0, 2.0]);
+        let moved = Ray::<2>::new([little, little * little], ray.direction);
+        assert_eq!(side_of_ray(&ray, [-2.0, 4.0]).sign(), equal);
+        assert_eq!(moved_side_sign(&ray, equal), side_of_ray(&moved, [-2.0, 4.0]).sign());
     }
 
     proptest::proptest! {
@@ -172,11 +185,9 @@ mod tests {
             let ray = Ray::new(o, d);
             let sign = edge_function(&ray, p, q).sign();
             proptest::prop_assert_eq!(edge_sign(&ray, p, q), sign);
-            let (k, equal) = (main_axis(&d), Ordering::Equal);
-            let (u, v) = ((k + 1) % 3, (k + 2) % 3);
-            let component = |plane| cross_component(o, q, p, plane).sign();
-            let turned = component((v, k)).then_with(|| component((k, u)));
-            proptest::prop_assert_eq!(turned_edge_sign(&ray, p, q, equal), turned);
+            let component = |plane| crossed_component(d, p, q, plane).sign();
+            let moved = component((1, 2)).then(component((2, 0))).then(component((0, 1)));
+            proptest::prop_assert_eq!(moved_edge_sign(&ray, p, q, Ordering::Equal), moved);
         }
     }
 

@@ -11,14 +11,13 @@
 //! (b, c), U of (c, a) and V of (a, b) have one sign; U + V + W = den, u = U / den, v = V / den,
 //! and t = T / den with T = −a' · (b' x c').
 //!
-//! # The turned ray
-//! Crossings are counted for the ray as turned by an infinitesimal (ε, ε²) in its two slopes: with
-//! k the axis of largest |d| and (u, v) the two behind it in cyclic order, d/d_k becomes
-//! d/d_k + ε·e_u + ε²·e_v. An edge function is linear in the slopes, so if it is zero its sign is
-//! that of component u of q' x p', and if that is zero, of component v. All triangles see the same
-//! turned ray, so neighbours agree on their common edge, and each crossing of a closed surface
-//! counts once. If all three are zero the edge points at the ray's origin, and the triangle is not
-//! crossed. This is Edelsbrunner and Mücke's simulation of simplicity (1990), applied to the ray.
+//! # The moved ray
+//! Crossings are counted for the ray as moved aside by an infinitesimal s = (ε, ε², ε³). Its edge functions
+//! differ by s · ((q − p) x d), so if one is zero its sign is that of the first component of (q − p) x d that
+//! is not. All triangles see the same moved ray, so neighbours agree on their common edge, and each crossing
+//! of a closed surface counts once, wherever on its line the ray begins: at a vertex, too. Only an edge on the
+//! line of the ray is neither left nor right of it, and its triangles are not crossed, for the moved ray is
+//! parallel to them. This is Edelsbrunner and Mücke's simulation of simplicity (1990), applied to the ray.
 
 mod accumulator;
 mod edge;
@@ -30,7 +29,7 @@ mod segment;
 pub(crate) use accumulator::not_vanished;
 pub use accumulator::{Accumulator, Scaled};
 pub use edge::{
-    cross_component, edge_function, edge_sign, side_of_ray, turned_edge_sign, turned_side_sign,
+    cross_component, edge_function, edge_sign, moved_edge_sign, moved_side_sign, side_of_ray,
     volume,
 };
 pub use on_triangle::is_on_triangle;

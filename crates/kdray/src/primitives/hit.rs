@@ -50,8 +50,8 @@ pub enum HitRule {
     /// Primitives are closed sets: touching an edge or a vertex is a hit on every primitive that
     /// shares it. So no ray slips through a seam. A ray that lies in a triangle's plane misses it.
     Touching,
-    /// Each crossing of a surface counts once: the ray is taken as turned by an infinitesimal
-    /// (ε, ε²) in its two slopes, so that it meets no edge or vertex (see [`crate::exact`]). A
-    /// closed mesh is crossed an even number of times from outside, an odd number from inside.
+    /// Each crossing of a surface counts once: the ray is taken as moved aside by an infinitesimal
+    /// (ε, ε², ε³), so that it meets no edge or vertex (see [`crate::exact`]). A closed mesh is
+    /// crossed an even number of times from outside, an odd number from inside.
     Crossing,
 }

@@ -1,7 +1,7 @@
 //! Line segments in the plane: the 2-D counterpart of triangles.
 
 use super::{Hit, HitRule, Intersect, Primitives, Side};
-use crate::exact::{cross_component, side_of_ray, turned_side_sign};
+use crate::exact::{cross_component, moved_side_sign, side_of_ray};
 use crate::geometry::{Aabb, Ray, clipped_bounds};
 use std::cmp::Ordering;
 use thiserror::Error;
@@ -59,10 +59,7 @@ impl Intersect<2> for Segments {
         let signs = (side_a.sign(), side_b.sign());
         let hit = match rule {
             HitRule::Touching => signs.0 != signs.1,
-            HitRule::Crossing => {
-                let turned = (turned_side_sign(ray, a, signs.0), turned_side_sign(ray, b, signs.1));
-                turned.0 != Ordering::Equal && turned.0 == turned.1.reverse() && signs.0 != signs.1
-            }
+            HitRule::Crossing => moved_side_sign(ray, signs.0) != moved_side_sign(ray, signs.1),
         };
         if !hit {
             return;

@@ -1,7 +1,7 @@
 //! The ray–triangle test: a filter in f64, and exact arithmetic where the filter cannot tell.
 
 use super::{Hit, HitRule, Side};
-use crate::exact::{self, Scaled, edge_function, edge_sign, not_vanished, turned_edge_sign};
+use crate::exact::{self, Scaled, edge_function, edge_sign, moved_edge_sign, not_vanished};
 use crate::geometry::{Coordinate, Interval, Ray, t_above, t_below};
 use glam::{DVec3, Vec3Swizzles};
 use std::cmp::Ordering;
@@ -163,8 +163,8 @@ fn is_hit_exactly<T: Coordinate>(
     if rule == HitRule::Touching {
         return true;
     }
-    let turned = [0, 1, 2].map(|i| turned_edge_sign(ray, edges[i].0, edges[i].1, signs[i]));
-    turned[0] != Ordering::Equal && turned == [turned[0]; 3]
+    let moved = [0, 1, 2].map(|i| moved_edge_sign(ray, edges[i].0, edges[i].1, signs[i]));
+    moved[0] != Ordering::Equal && moved == [moved[0]; 3]
 }
 
 /// t from a den that is good, where T has lost too many digits: near the origin of the ray.
