@@ -39,6 +39,7 @@ pub(crate) struct Globals {
 #[derive(Debug, Subcommand)]
 enum Command {
     Render(Box<commands::render::Args>),
+    Merge(commands::merge::Args),
     Build(commands::build::Args),
     Stats(commands::stats::Args),
     Validate(commands::validate::Args),
@@ -63,6 +64,7 @@ pub(crate) fn run() -> Result<(), CliError> {
     }
     match &command {
         Command::Render(args) => commands::render::run(args, &globals),
+        Command::Merge(args) => commands::merge::run(args, &globals),
         Command::Build(args) => commands::build::run(args, &globals),
         Command::Stats(args) => commands::stats::run(args, &globals),
         Command::Validate(args) => commands::validate::run(args, &globals),

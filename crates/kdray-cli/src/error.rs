@@ -43,6 +43,9 @@ pub(crate) enum CliError {
         /// What is wrong with it, and where.
         reason: String,
     },
+    /// Parts of a picture that do not go together.
+    #[error("{0}")]
+    Merge(String),
     /// A scene that could not be read, or was refused.
     #[error(transparent)]
     Load(#[from] LoadError),
@@ -104,7 +107,7 @@ impl CliError {
             Self::Tree(_) | Self::BrokenFile { .. } | Self::Disagreement(_) => 1,
             Self::Usage(_) | Self::Render(_) => 2,
             Self::Interrupted | Self::Build(BuildError::Cancelled) => interrupt::EXIT_CODE,
-            Self::Input { .. } | Self::Load(_) | Self::TreeFile(_) => 3,
+            Self::Merge(_) | Self::Input { .. } | Self::Load(_) | Self::TreeFile(_) => 3,
             Self::World(_) | Self::Mesh(_) | Self::Build(_) => 3,
             Self::Output { .. } | Self::Stdout(_) => 4,
         }

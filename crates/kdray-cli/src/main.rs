@@ -11,6 +11,7 @@ mod error;
 mod interrupt;
 mod load;
 mod output;
+mod picture_file;
 mod pictures;
 mod progress;
 mod query;

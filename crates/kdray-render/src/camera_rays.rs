@@ -27,9 +27,9 @@ impl<'a> Lens<'a> {
     }
 
     /// The ray of that index through a pixel, with its random numbers.
-    pub(crate) fn sample(&self, pixel: [usize; 2], sample: usize) -> (Ray, Sampler) {
+    pub(crate) fn sample(&self, pixel: [usize; 2], sample: u32) -> (Ray, Sampler) {
         let samples = self.options.samples;
-        let sampler = Sampler::new(self.options.seed, pixel, sample as u32, samples);
+        let sampler = Sampler::new(self.options.seed, pixel, sample, samples);
         let within = if samples == 1 { [0.5; 2] } else { sampler.fork(LENS).point(0, 1) };
         (self.through(pixel, within), sampler)
     }

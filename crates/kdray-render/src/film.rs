@@ -1,7 +1,8 @@
 //! Where the pixels' values are kept until the picture is done.
 
-use crate::options::{PictureKind, RenderOptions};
-use crate::picture::{Channel, Layer, Picture, Samples};
+use crate::options::RenderOptions;
+use crate::part::Part;
+use crate::picture::{Channel, Layer, Picture, Plan, Samples, plans};
 
 /// The most memory that a picture's layers may take: 4 GiB, 16384 x 16384 in colour.
 pub(crate) const MAX_PICTURE_BYTES: u128 = 1 << 32;
@@ -25,60 +26,50 @@ pub(crate) struct Film {
     picture: Picture,
 }
 
-/// A layer's name and its channels' names. Whole numbers are kept in the channel called `id`.
-type Plan = (&'static str, &'static [&'static str]);
-
-const COLOR: Plan = ("color", &["R", "G", "B", "A"]);
-const DEPTH: Plan = ("depth", &["Z"]);
-const NORMAL: Plan = ("normal", &["X", "Y", "Z"]);
-const PRIMITIVE: Plan = ("primitive", &["id"]);
-const OCCLUSION: Plan = ("occlusion", &["V"]);
-const COST: Plan = ("cost", &["nodes", "primitives"]);
-const PACKET: Plan = ("packet", &["cost", "size"]);
-
-fn plans(options: &RenderOptions) -> Vec<Plan> {
-    if options.all_layers {
-        return vec![COLOR, DEPTH, NORMAL, PRIMITIVE, OCCLUSION, COST, PACKET];
-    }
-    vec![match options.picture {
-        PictureKind::Shaded => COLOR,
-        PictureKind::Depth => DEPTH,
-        PictureKind::Normal => NORMAL,
-        PictureKind::PrimitiveId => PRIMITIVE,
-        PictureKind::AmbientOcclusion => OCCLUSION,
-        PictureKind::Cost | PictureKind::CostNodes | PictureKind::CostPrimitives => COST,
-        PictureKind::PacketCost | PictureKind::PacketSize => PACKET,
-    }]
-}
-
 impl Film {
     /// How many bytes the layers take.
     pub(crate) fn bytes(options: &RenderOptions) -> u128 {
-        let channels: usize = plans(options).iter().map(|(_, channels)| channels.len()).sum();
-        let pixels = (options.width as u128).saturating_mul(options.height as u128);
+        let channels = plans(options.picture, options.all_layers);
+        let channels: usize = channels.iter().map(|plan| plan.channels.len()).sum();
+        let window = options.window();
+        let pixels = (window.width as u128).saturating_mul(window.height as u128);
         pixels.saturating_mul(4 * channels as u128)
     }
 
-    /// An empty film; `None` if there is not the memory for it.
-    pub(crate) fn new(options: &RenderOptions) -> Option<Self> {
+    /// An empty film for a picture of what `scene` is the hash of; `None` if there is not the memory
+    /// for it.
+    pub(crate) fn new(options: &RenderOptions, scene: u64) -> Option<Self> {
         if Self::bytes(options) > MAX_PICTURE_BYTES {
             return None;
         }
-        let pixels = options.width * options.height;
-        let layer = |(name, names): Plan| {
+        let window = options.window();
+        let pixels = window.width * window.height;
+        let layer = |Plan { name, channels }: Plan| {
             let channel = |&name| Some(Channel { name, samples: nothing(name, pixels)? });
-            Some(Layer { name, channels: names.iter().map(channel).collect::<Option<_>>()? })
+            Some(Layer { name, channels: channels.iter().map(channel).collect::<Option<_>>()? })
         };
-        let layers = plans(options).into_iter().map(layer).collect::<Option<_>>()?;
+        let plans = plans(options.picture, options.all_layers);
+        let layers = plans.into_iter().map(layer).collect::<Option<_>>()?;
+        let part = Part {
+            full_width: options.width,
+            full_height: options.height,
+            x: window.x,
+            y: window.y,
+            samples: options.samples,
+            sample_range: options.strata(),
+            seed: options.seed,
+            scene,
+        };
         Some(Self {
             picture: Picture {
-                width: options.width,
-                height: options.height,
+                width: window.width,
+                height: window.height,
                 kind: options.picture,
                 complete: false,
                 rendered: filled(false, pixels)?,
                 exposure: options.exposure,
                 heat_max: options.heat_max,
+                part,
                 layers,
             },
         })
@@ -114,14 +105,14 @@ impl Film {
 }
 
 /// What a channel holds before anything is rendered.
-fn nothing(name: &str, count: usize) -> Option<Samples> {
+pub(crate) fn nothing(name: &str, count: usize) -> Option<Samples> {
     Some(match name {
         "id" => Samples::U32(filled(u32::MAX, count)?),
         _ => Samples::F32(filled(0.0, count)?),
     })
 }
 
-fn filled<T: Clone>(value: T, count: usize) -> Option<Vec<T>> {
+pub(crate) fn filled<T: Clone>(value: T, count: usize) -> Option<Vec<T>> {
     let mut samples = Vec::new();
     samples.try_reserve_exact(count).ok()?;
     samples.resize(count, value);

@@ -1,6 +1,11 @@
 //! What to render, and how well.
 
+use crate::part::Crop;
 use glam::{DVec3, Vec3};
+use std::ops::Range;
+
+/// The most camera rays that a pixel may have.
+pub(crate) const MAX_SAMPLES: u32 = 65_536;
 
 /// What a render computes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -54,6 +59,11 @@ pub struct RenderOptions {
     /// Camera rays per pixel, stratified over it; a single one goes through the pixel's middle.
     /// Depth, normal and primitive id always take one.
     pub samples: u32,
+    /// The pixels to render; `None` for all. A pixel is the same bit for bit in every crop.
+    pub crop: Option<Crop>,
+    /// Which of each pixel's `samples` rays to trace; `None` for all. Each ray is the same as when all
+    /// are traced, and a layer has the mean of those that were.
+    pub sample_range: Option<Range<u32>>,
     /// How many times a ray may be mirrored or refracted; then it brings the ambient light.
     pub max_bounces: u32,
     /// What to compute, and what a PNG shows.
@@ -88,6 +98,8 @@ impl Default for RenderOptions {
             width: 960,
             height: 540,
             samples: 16,
+            crop: None,
+            sample_range: None,
             max_bounces: 8,
             picture: PictureKind::Shaded,
             packets: true,
@@ -101,6 +113,18 @@ impl Default for RenderOptions {
             exposure: 1.0,
             heat_max: None,
         }
+    }
+}
+
+impl RenderOptions {
+    /// The pixels to render.
+    pub(crate) fn window(&self) -> Crop {
+        self.crop.unwrap_or(Crop { x: 0, y: 0, width: self.width, height: self.height })
+    }
+
+    /// Which of each pixel's rays to trace.
+    pub(crate) fn strata(&self) -> Range<u32> {
+        self.sample_range.clone().unwrap_or(0..self.samples)
     }
 }
 
@@ -137,4 +161,20 @@ impl PictureKind {
         Self::PacketCost,
         Self::PacketSize,
     ];
+
+    /// Its name in words: `shaded`, `primitive-id`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Shaded => "shaded",
+            Self::Depth => "depth",
+            Self::Normal => "normal",
+            Self::PrimitiveId => "primitive-id",
+            Self::AmbientOcclusion => "ambient-occlusion",
+            Self::Cost => "cost",
+            Self::CostNodes => "cost-nodes",
+            Self::CostPrimitives => "cost-primitives",
+            Self::PacketCost => "packet-cost",
+            Self::PacketSize => "packet-size",
+        }
+    }
 }

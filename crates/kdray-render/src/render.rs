@@ -2,8 +2,10 @@
 
 use crate::camera::{CameraError, View};
 use crate::film::{Film, MAX_PICTURE_BYTES};
+use crate::fingerprint;
 use crate::light::{Lamp, LightError, default_lights};
-use crate::options::RenderOptions;
+use crate::options::{MAX_SAMPLES, RenderOptions};
+use crate::part::Crop;
 use crate::picture::Picture;
 use crate::tile::TileTracer;
 use crate::tiles::Tiles;
@@ -46,6 +48,26 @@ pub enum RenderError {
     /// A light is unusable.
     #[error(transparent)]
     Light(#[from] LightError),
+    /// The crop has no pixels, or some that the picture has not.
+    #[error(
+        "the crop {crop} must have pixels, and all of them in the picture of {width} x {height}; change it"
+    )]
+    Crop {
+        /// The crop.
+        crop: Crop,
+        /// Pixels across.
+        width: usize,
+        /// Pixels down.
+        height: usize,
+    },
+    /// The range of samples is empty, or goes beyond those of a pixel.
+    #[error("the sample range {}..{} must not be empty, nor end above the {samples} samples of a pixel; change it", range.start, range.end)]
+    SampleRange {
+        /// The range.
+        range: Range<u32>,
+        /// Samples a pixel.
+        samples: u32,
+    },
     /// An option is out of its range.
     #[error("the option `{option}` must be {must}")]
     Option {
@@ -114,31 +136,54 @@ pub fn render_with_progress(
     } else {
         Lamp::all(lights)
     }?;
-    let film = Film::new(options).ok_or_else(|| RenderError::TooLarge {
-        width,
-        height,
+    let scene = fingerprint::of_picture(world, camera, lights, options);
+    let window = options.window();
+    let film = Film::new(options, scene).ok_or_else(|| RenderError::TooLarge {
+        width: window.width,
+        height: window.height,
         bytes: Film::bytes(options),
         limit: MAX_PICTURE_BYTES,
     })?;
-    let tiles = Tiles { width, height };
+    let tiles = Tiles { width, height, window };
     let work = Work::new(film, tiles, progress);
     (0..tiles.count()).into_par_iter().for_each(|index| {
         if !work.is_stopped() {
             let mut tracer = TileTracer::new(world, &view, &lamps, options);
-            let pixels: Vec<[usize; 2]> = tiles.pixels(index).collect();
-            let values = tracer.trace(&pixels);
-            work.keep(pixels.into_iter().zip(values), tracer.rays());
+            let tile: Vec<[usize; 2]> = tiles.pixels(index).collect();
+            work.keep(tracer.trace(&tile).into_iter(), tracer.rays());
             work.tell();
         }
     });
     Ok(work.finish())
 }
 
+/// Whether there is something to render, and it is of the picture.
+fn check_part(options: &RenderOptions) -> Result<(), RenderError> {
+    let (width, height, samples) = (options.width, options.height, options.samples);
+    if let Some(crop) = options.crop {
+        if !crop.is_within(width, height) {
+            return Err(RenderError::Crop { crop, width, height });
+        }
+        // Random numbers tell so many columns and rows apart.
+        if width.max(height) > u32::MAX as usize {
+            let (option, must) = ("width` or `height", "below 2^32");
+            return Err(RenderError::Option { option, must });
+        }
+    }
+    match &options.sample_range {
+        Some(range) if range.is_empty() || range.end > samples => {
+            Err(RenderError::SampleRange { range: range.clone(), samples })
+        }
+        _ => Ok(()),
+    }
+}
+
 fn check(options: &RenderOptions) -> Result<(), RenderError> {
     let in_range = |option, value: u32, range: Range<u32>, must| {
         if range.contains(&value) { Ok(()) } else { Err(RenderError::Option { option, must }) }
     };
-    in_range("samples", options.samples, 1..65_537, "from 1 to 65536")?;
+    in_range("samples", options.samples, 1..MAX_SAMPLES + 1, "from 1 to 65536")?;
+    check_part(options)?;
     in_range("max_bounces", options.max_bounces, 0..65, "at most 64")?;
     in_range("ambient_rays", options.ambient_rays, 0..1025, "at most 1024")?;
     in_range("light_samples", options.light_samples, 1..1025, "from 1 to 1024")?;

@@ -12,6 +12,7 @@ use glam::Vec3;
 use kdray::primitives::HitRule;
 use kdray::traverse::{Counters, Trace};
 use kdray::{Hit, Ray};
+use std::ops::Range;
 
 /// Occlusion rays per camera ray for [`PictureKind::AmbientOcclusion`], at the least.
 const LEAST_OCCLUSION_RAYS: u32 = 4;
@@ -63,13 +64,16 @@ impl<'a> TileTracer<'a> {
         self.tracer.rays()
     }
 
-    /// The values of the pixels that the options ask for.
-    pub(crate) fn trace(&mut self, pixels: &[[usize; 2]]) -> Vec<PixelValues> {
-        let mut values = vec![PixelValues::default(); pixels.len()];
+    /// The pixels of a tile that the options ask for, with the values that they ask for.
+    pub(crate) fn trace(&mut self, tile: &[[usize; 2]]) -> Vec<([usize; 2], PixelValues)> {
         let options = self.options;
+        let (window, strata) = (options.window(), options.strata());
+        let pixels = tile.iter().copied().filter(|&pixel| window.contains(pixel));
+        let pixels: &[[usize; 2]] = &pixels.collect::<Vec<_>>();
+        let mut values = vec![PixelValues::default(); pixels.len()];
         let wanted = |kinds: &[PictureKind]| options.all_layers || kinds.contains(&options.picture);
         if wanted(&[PictureKind::Shaded]) {
-            let means = self.means(pixels, Self::push_radiances);
+            let means = self.means(pixels, strata.clone(), Self::push_radiances);
             for (values, [r, g, b]) in values.iter_mut().zip(means) {
                 values.color = [r, g, b, 1.0];
             }
@@ -78,47 +82,61 @@ impl<'a> TileTracer<'a> {
             self.trace_middles(pixels, &mut values);
         }
         if wanted(&[PictureKind::AmbientOcclusion]) {
-            let means = self.means(pixels, Self::push_openness);
+            let means = self.means(pixels, strata.clone(), Self::push_openness);
             for (values, [occlusion]) in values.iter_mut().zip(means) {
                 values.occlusion = occlusion;
             }
         }
         if wanted(&[PictureKind::Cost, PictureKind::CostNodes, PictureKind::CostPrimitives]) {
-            let means = self.means(pixels, Self::push_costs);
+            let means = self.means(pixels, strata, Self::push_costs);
             for (values, [nodes, primitives]) in values.iter_mut().zip(means) {
                 (values.nodes, values.primitives) = (nodes, primitives);
             }
         }
         if wanted(&[PictureKind::PacketCost, PictureKind::PacketSize]) {
-            let means = self.means(pixels, Self::push_packet_work);
-            for (values, [cost, size]) in values.iter_mut().zip(means) {
+            // The work for a ray depends on those that go with it.
+            let means = self.means(tile, 0..options.samples, Self::push_packet_work);
+            let kept = tile.iter().zip(means).filter(|&(&pixel, _)| window.contains(pixel));
+            for (values, (_, [cost, size])) in values.iter_mut().zip(kept) {
                 (values.packet_cost, values.packet_size) = (cost, size);
             }
         }
-        values
+        pixels.iter().copied().zip(values).collect()
     }
 
-    /// The mean over each pixel's camera rays of what `push` adds for each ray of a portion.
+    /// The mean over each pixel's camera rays of what `push` adds for each ray of a portion. Those of
+    /// `samples` are traced, if some of their portion are asked for, and those that are asked for count.
     fn means<const N: usize>(
         &mut self,
         pixels: &[[usize; 2]],
+        samples: Range<u32>,
         push: impl Fn(&mut Self, &mut Vec<[f32; N]>),
     ) -> Vec<[f32; N]> {
-        let samples = self.options.samples as usize;
+        let (window, strata) = (self.options.window(), self.options.strata());
+        let each = samples.len();
+        let ray = |i: usize| (pixels[i / each], samples.start + (i % each) as u32);
+        let counts = |i: usize| {
+            let (pixel, sample) = ray(i);
+            window.contains(pixel) && strata.contains(&sample)
+        };
         let mut sums = vec![[0.0_f64; N]; pixels.len()];
         let mut found = Vec::with_capacity(self.portion);
-        let all = pixels.len() * samples;
+        let all = pixels.len() * each;
         for first in (0..all).step_by(self.portion) {
             let portion = first..(first + self.portion).min(all);
-            let ray = |i: usize| self.lens.sample(pixels[i / samples], i % samples);
-            self.camera_rays.fill(portion.clone().map(ray));
+            if !portion.clone().any(counts) {
+                continue;
+            }
+            let rays = portion.clone().map(ray);
+            self.camera_rays.fill(rays.map(|(pixel, sample)| self.lens.sample(pixel, sample)));
             push(self, &mut found);
-            for (i, values) in portion.zip(found.drain(..)) {
-                let sums = sums[i / samples].iter_mut();
+            for (i, values) in portion.zip(found.drain(..)).filter(|&(i, _)| counts(i)) {
+                let sums = sums[i / each].iter_mut();
                 sums.zip(values).for_each(|(sum, value)| *sum += f64::from(value));
             }
         }
-        sums.iter().map(|sums| sums.map(|sum| (sum / samples as f64) as f32)).collect()
+        let count = strata.len() as f64;
+        sums.iter().map(|sums| sums.map(|sum| (sum / count) as f32)).collect()
     }
 
     /// The light that comes back along each of the rays.

@@ -57,8 +57,8 @@ impl<'a> Work<'a> {
     /// Keeps the pixels of a tile.
     pub(crate) fn keep(&self, pixels: impl Iterator<Item = ([usize; 2], PixelValues)>, rays: u64) {
         let mut state = self.state();
-        for ([x, y], values) in pixels {
-            state.film.set(y * self.tiles.width + x, &values);
+        for (pixel, values) in pixels {
+            state.film.set(self.tiles.window.index(pixel), &values);
         }
         state.progress.advance(self.tiles.count(), rays);
     }

@@ -1,8 +1,10 @@
 //! A model that rays can be shot at.
 
+use crate::fingerprint;
 use kdray::{Aabb, BuildError, BuildOptions, BuildProgress, MeshError, Scene, TriangleMesh};
 use kdray_scene::{AlphaMode, Material, Model, TextureRef};
 use std::ops::ControlFlow;
+use std::sync::OnceLock;
 use thiserror::Error;
 
 /// A model and the kd-tree over its triangles.
@@ -13,6 +15,7 @@ pub struct World {
     /// What triangles look like that have no material.
     default_material: Material,
     lets_light_through: bool,
+    fingerprint: OnceLock<u64>,
 }
 
 /// Why a model cannot be rendered.
@@ -127,7 +130,8 @@ impl World {
 
     fn of_parts(model: Model, scene: Scene) -> Self {
         let lets_light_through = lets_light_through(&model);
-        Self { model, scene, default_material: Material::default(), lets_light_through }
+        let (default_material, fingerprint) = (Material::default(), OnceLock::new());
+        Self { model, scene, default_material, lets_light_through, fingerprint }
     }
 
     /// The triangles with the tree over them.
@@ -144,6 +148,12 @@ impl World {
     /// The box that holds all triangles; empty if there are none.
     pub fn bounds(&self) -> &Aabb<3> {
         self.scene.tree().bounds()
+    }
+
+    /// A hash of all that rays can meet.
+    pub(crate) fn fingerprint(&self) -> u64 {
+        let hash = || fingerprint::of_model(self.scene.mesh(), &self.model);
+        *self.fingerprint.get_or_init(hash)
     }
 
     /// Whether light passes some of the triangles; where it does not, any hit ends a shadow ray.

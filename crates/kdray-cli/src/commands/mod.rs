@@ -5,6 +5,7 @@ pub(crate) mod compare;
 pub(crate) mod completions;
 pub(crate) mod draw;
 pub(crate) mod man;
+pub(crate) mod merge;
 pub(crate) mod query;
 pub(crate) mod render;
 pub(crate) mod stats;

@@ -1,21 +1,23 @@
 //! `kdray render`: a picture by backward ray tracing.
 
 use crate::{
-    args::{FastBuildArgs, SceneArgs, ViewArgs, color},
+    args::{FastBuildArgs, SceneArgs, ViewArgs, bits, color, crop, sample_range},
     build,
     cli::Globals,
     error::CliError,
     interrupt, load,
     output::Output,
+    picture_file::{Format, write},
     progress::{self, Progress},
 };
 use clap::ValueEnum;
 use kdray::BuildOptions;
 use kdray_render::{
-    Background, Picture, PictureKind, PngDepth, RenderOptions, RenderProgress, World,
+    Background, Crop, Picture, PictureKind, PngDepth, RenderOptions, RenderProgress, World,
 };
 use std::{
-    path::{Path, PathBuf},
+    ops::Range,
+    path::PathBuf,
     sync::{Mutex, PoisonError},
 };
 
@@ -32,7 +34,12 @@ Example: a mesh seen from the left, lit from above
   kdray render bunny.ply -o bunny.png --size 800x600 --eye=-1,0.1,0 --light 0,2,0
 
 Example: what the tree costs each pixel
-  kdray render bunny.ply -o cost.png --picture cost")]
+  kdray render bunny.ply -o cost.png --picture cost
+
+Example: the left half on one machine, the right half on another, put together
+  kdray render bunny.ply -o left.exr --crop 0,0,480x540
+  kdray render bunny.ply -o right.exr --crop 480,0,480x540
+  kdray merge left.exr right.exr -o bunny.png")]
 pub(crate) struct Args {
     #[command(flatten)]
     scene: SceneArgs,
@@ -42,9 +49,22 @@ pub(crate) struct Args {
     #[command(flatten)]
     view: ViewArgs,
     #[command(flatten)]
+    part: PartArgs,
+    #[command(flatten)]
     quality: QualityArgs,
     #[command(flatten)]
     build: FastBuildArgs,
+}
+
+/// Which part of the picture is rendered, for `kdray merge`.
+#[derive(Debug, clap::Args)]
+struct PartArgs {
+    /// Render these pixels of the picture alone, the same as in the whole; X,Y is the upper left one
+    #[arg(long, value_name = "X,Y,WxH", value_parser = crop)]
+    crop: Option<Crop>,
+    /// Trace these of each pixel's samples alone: from A to before B
+    #[arg(long, value_name = "A..B", value_parser = sample_range)]
+    sample_range: Option<Range<u32>>,
 }
 
 /// What is computed, and how well. What is not given is the renderer's default.
@@ -120,13 +140,6 @@ enum Shown {
     PacketSize,
 }
 
-/// The formats of pictures.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Format {
-    Png,
-    Exr,
-}
-
 /// Pictures of cost are of the lecture's traversal, and of its tree unless another is asked for.
 fn tree_options(args: &Args) -> BuildOptions {
     let of_cost =
@@ -142,16 +155,13 @@ fn tree_options(args: &Args) -> BuildOptions {
 pub(crate) fn run(args: &Args, globals: &Globals) -> Result<(), CliError> {
     let format = Format::of(&args.out)?;
     check_fits(&args.quality, format)?;
+    check_part(args)?;
     // Refused now, not after an hour of rendering.
     let mut output = Output::create(&args.out)?;
     let model = load::model(&args.scene, globals)?;
     let world = build::world(model, &tree_options(args), globals)?;
     let (picture, report) = render(args, &world, globals)?;
-    let written = match format {
-        Format::Png => picture.write_png(output.file(), args.quality.bits.unwrap_or_default()),
-        Format::Exr => picture.write_exr(output.file()),
-    };
-    written.map_err(|error| CliError::picture(&args.out, error))?;
+    write(&picture, format, args.quality.bits, &mut output, &args.out)?;
     output.commit()?;
     progress::say(globals, &format!("{report}: {}", args.out.display()));
     if picture.complete { Ok(()) } else { Err(CliError::Interrupted) }
@@ -159,16 +169,29 @@ pub(crate) fn run(args: &Args, globals: &Globals) -> Result<(), CliError> {
 
 /// Refuses options that the format has no use for.
 fn check_fits(quality: &QualityArgs, format: Format) -> Result<(), CliError> {
-    let refused = match format {
-        Format::Png if quality.layers => {
-            "--layers needs an output that ends in .exr: a PNG holds one picture"
-        }
-        Format::Exr if quality.bits.is_some() => {
-            "--bits needs an output that ends in .png: OpenEXR keeps 32 bits"
-        }
-        _ => return Ok(()),
-    };
-    Err(CliError::Usage(refused.to_owned()))
+    if format == Format::Png && quality.layers {
+        let refused = "--layers needs an output that ends in .exr: a PNG holds one picture";
+        return Err(CliError::Usage(refused.to_owned()));
+    }
+    format.check_bits(quality.bits)
+}
+
+/// Refuses parts that the picture has not.
+fn check_part(args: &Args) -> Result<(), CliError> {
+    let (size, samples) = (args.view.size, args.quality.samples);
+    if let Some(crop) = args.part.crop.filter(|it| !it.is_within(size.width, size.height)) {
+        return Err(CliError::Usage(format!(
+            "--crop {crop}: the picture of {} x {} has not all of these pixels; change it or --size",
+            size.width, size.height
+        )));
+    }
+    match &args.part.sample_range {
+        Some(range) if range.end > samples => Err(CliError::Usage(format!(
+            "--sample-range {}..{}: a pixel has samples 0..{samples}; change it or --samples",
+            range.start, range.end
+        ))),
+        _ => Ok(()),
+    }
 }
 
 /// The picture, whole or as far as Ctrl-C let it come, and a line on what was done.
@@ -177,7 +200,10 @@ fn render(args: &Args, world: &World, globals: &Globals) -> Result<(Picture, Str
     let camera = args.view.camera(world.model(), bounds)?;
     let lights = args.view.lights(world.model(), bounds);
     let options = options(args);
-    let pixels = options.width * options.height;
+    let pixels = match options.crop {
+        Some(crop) => crop.width * crop.height,
+        None => options.width * options.height,
+    };
     let last = Mutex::new(RenderProgress::default());
 
     let progress = Progress::start("rendering", pixels as u64, "pixels", globals);
@@ -210,6 +236,8 @@ fn options(args: &Args) -> RenderOptions {
         width: args.view.size.width,
         height: args.view.size.height,
         samples: quality.samples,
+        crop: args.part.crop,
+        sample_range: args.part.sample_range.clone(),
         max_bounces: quality.bounces,
         picture: quality.picture.kind(),
         packets: !quality.no_packets,
@@ -222,21 +250,6 @@ fn options(args: &Args) -> RenderOptions {
         light_samples: quality.light_samples,
         exposure: quality.exposure,
         heat_max: quality.heat_max.or(default.heat_max),
-    }
-}
-
-impl Format {
-    /// The format that a path's ending names.
-    fn of(path: &Path) -> Result<Self, CliError> {
-        let ending = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
-        match ending.as_str() {
-            "png" => Ok(Self::Png),
-            "exr" => Ok(Self::Exr),
-            _ => Err(CliError::Usage(format!(
-                "--out {}: give a name that ends in .png or .exr",
-                path.display()
-            ))),
-        }
     }
 }
 
@@ -255,13 +268,5 @@ impl Shown {
             Self::PacketCost => PictureKind::PacketCost,
             Self::PacketSize => PictureKind::PacketSize,
         }
-    }
-}
-
-fn bits(text: &str) -> Result<PngDepth, String> {
-    match text {
-        "8" => Ok(PngDepth::Eight),
-        "16" => Ok(PngDepth::Sixteen),
-        _ => Err("give 8 or 16".to_owned()),
     }
 }

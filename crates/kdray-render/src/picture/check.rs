@@ -1,6 +1,7 @@
 //! Whether a picture is in itself consistent. All of its fields can be set, so a writer looks
 //! before it counts on them.
 
+use super::label::is_range_of;
 use super::{Picture, Samples, WriteError};
 
 impl Picture {
@@ -20,6 +21,22 @@ impl Picture {
         Ok([across, down])
     }
 
+    /// The size of the whole picture, if its sides are up to `limit`, and the part is one of it.
+    pub(super) fn checked_part(&self, limit: u32) -> Result<(usize, usize), WriteError> {
+        let (width, height) = (self.part.full_width, self.part.full_height);
+        if width.max(height) > limit as usize {
+            return Err(WriteError::Size { width, height, limit });
+        }
+        let is_part = self.crop().is_within(width, height)
+            && is_range_of(&self.part.sample_range, self.part.samples);
+        if is_part { Ok((width, height)) } else { Err(WriteError::Part(Box::new(self.part.clone()))) }
+    }
+
+    /// Whether every list of the picture has an entry for each pixel.
+    pub(crate) fn is_consistent(&self) -> bool {
+        self.checked_size(u32::MAX).is_ok() && self.checked_part(u32::MAX).is_ok()
+    }
+
     /// The name and the length of each list.
     fn lengths(&self) -> impl Iterator<Item = (String, usize)> {
         let channels = self.layers.iter().flat_map(|layer| {
@@ -31,6 +48,14 @@ impl Picture {
 }
 
 impl Samples {
+    /// None, of the same kind.
+    pub(crate) fn empty(&self) -> Self {
+        match self {
+            Self::F32(_) => Self::F32(Vec::new()),
+            Self::U32(_) => Self::U32(Vec::new()),
+        }
+    }
+
     fn len(&self) -> usize {
         match self {
             Self::F32(samples) => samples.len(),

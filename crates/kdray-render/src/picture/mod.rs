@@ -3,25 +3,31 @@
 mod check;
 mod exr;
 mod false_color;
+mod label;
 mod legend;
+mod plan;
 mod png;
+mod read;
 mod write;
 
 use crate::options::PictureKind;
+use crate::part::{Crop, Part};
 
+pub(crate) use plan::{COUNT, Plan, is_of_middle, plans};
 pub use png::PngDepth;
+pub use read::ReadError;
 pub use write::WriteError;
 
 /// A rendered picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
-    /// Pixels across.
+    /// Pixels across: of a part, those that it has.
     pub width: usize,
-    /// Pixels down.
+    /// Pixels down, likewise.
     pub height: usize,
     /// What a PNG shows.
     pub kind: PictureKind,
-    /// Whether every tile was rendered.
+    /// Whether every pixel was rendered, with all samples of the part's range.
     pub complete: bool,
     /// Whether each pixel was rendered, the upper row first. Those that were not are zero in every
     /// layer, also in alpha, and `u32::MAX` in that of ids.
@@ -30,6 +36,8 @@ pub struct Picture {
     pub exposure: f32,
     /// The cost that has the last colour of a heat map's scale; `None` is the 99.5th percentile.
     pub heat_max: Option<f32>,
+    /// Which part of which picture it is.
+    pub part: Part,
     /// The layers.
     pub layers: Vec<Layer>,
 }
@@ -76,6 +84,11 @@ impl Picture {
             Samples::U32(samples) => Some(samples),
             Samples::F32(_) => None,
         }
+    }
+
+    /// Its pixels in the whole picture.
+    pub fn crop(&self) -> Crop {
+        self.part.crop(self.width, self.height)
     }
 
     fn channel(&self, layer: &str, channel: &str) -> Option<&Channel> {

@@ -2,6 +2,7 @@
 //! written, so that a writer's errors can be told from an encoder's.
 
 use crate::options::PictureKind;
+use crate::part::Part;
 use std::error::Error as StdError;
 use std::io;
 use thiserror::Error;
@@ -37,6 +38,9 @@ pub enum WriteError {
         /// Pixels down.
         height: usize,
     },
+    /// The picture is no part of the one that it says it is part of.
+    #[error("a picture cannot be this part: {0:?}; give pixels and samples that the whole has")]
+    Part(Box<Part>),
     /// What a PNG shall show was not rendered, or the layer has other channels.
     #[error("the picture has no layer that shows {0:?}; render that kind, or all layers")]
     NotThere(PictureKind),
