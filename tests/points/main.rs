@@ -9,7 +9,6 @@ use cases::{
 use kdray::exact::side_of_plane;
 use kdray::primitives::{HitRule, solid_angle};
 use kdray::{BuildOptions, Closure, Hit, Precision, Ray, Scene, Side, Strategy, TriangleMesh};
-use kdray_tests::Subject;
 use kdray_tests::closed::closed_part;
 use kdray_tests::meshes::{boxes, grid, mesh, mesh_in_f64, moved, soup, sphere, torus};
 use kdray_tests::oracle::{
@@ -266,7 +265,7 @@ fn sights_are_rational<T: Precision>(meshes: Vec<(&str, TriangleMesh<T>)>) {
         let mut archer = Archer::new(&mesh, 61);
         for ray in archer.all_kinds(8, 10.0) {
             // On a grid fine enough to meet surfaces, and coarse enough for exact differences.
-            let on_grid = |p: [f64; 3]| p.map(|x| mesh.rounded(x));
+            let on_grid = |p: [f64; 3]| p.map(|x| archer.rounded(x));
             let (from, to) = (on_grid(ray.origin), on_grid(ray.at(1.0)));
             if !from.iter().chain(&to).all(|x| x.is_finite()) {
                 continue;

@@ -187,7 +187,7 @@ impl<'a, S: Subject<K>, const K: usize> Archer<'a, S, K> {
     }
 
     /// A number next to x that has few digits: see [`Subject::rounded`].
-    pub(crate) fn rounded(&self, x: f64) -> f64 {
+    pub fn rounded(&self, x: f64) -> f64 {
         let largest = self.min.iter().chain(&self.max).fold(0.0, |most: f64, x| most.max(x.abs()));
         S::rounded(x, largest)
     }
