@@ -84,7 +84,8 @@ fn ranges_of_samples_and_pictures_of_cost_are_merged() {
 fn missing_parts_are_named_unless_they_are_allowed() {
     let folder = folder();
     ball(&folder, "left.exr", &["--crop", "0,0,12x16"]);
-    let missing = "192 of 384 pixels lack samples, the first of them (12, 0), which has no sample 0";
+    let missing =
+        "192 of 384 pixels lack samples, the first of them (12, 0), which has no sample 0";
     let ran = merge(&folder, &["left.exr", "-o", "merged.png"]);
     ran.fails(INPUT, &[missing, "--allow-missing"]);
     assert!(!folder.path("merged.png").exists());

@@ -27,8 +27,8 @@ mod world;
 
 pub use camera::{CameraError, View, frame};
 pub use light::{LightError, default_lights, point_light_for};
-pub use options::{Background, PictureKind, RenderOptions};
 pub use merge::{Merge, MergeError};
+pub use options::{Background, PictureKind, RenderOptions};
 pub use part::{Crop, Part};
 pub use picture::{Channel, Layer, Picture, PngDepth, ReadError, Samples, WriteError};
 pub use render::{RenderError, render, render_with_progress};

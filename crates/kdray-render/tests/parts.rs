@@ -18,7 +18,13 @@ static SCENE: LazyLock<(World, Camera, Vec<Light>)> = LazyLock::new(still_life);
 
 /// All layers of a picture whose sides are no multiples of a tile's.
 fn all_layers() -> RenderOptions {
-    RenderOptions { width: 40, height: 28, samples: 4, all_layers: true, ..small(PictureKind::Cost) }
+    RenderOptions {
+        width: 40,
+        height: 28,
+        samples: 4,
+        all_layers: true,
+        ..small(PictureKind::Cost)
+    }
 }
 
 fn shot(options: &RenderOptions) -> Picture {
@@ -212,7 +218,10 @@ fn parts_of_different_pictures_are_refused() {
         (rest(RenderOptions { height: 29, ..o() }), "size is 40 x 28 pixels and 40 x 29 pixels"),
         (rest(RenderOptions { samples: 5, ..o() }), "samples is 4 and 5"),
         (rest(RenderOptions { seed: 7, ..o() }), "seed is 0 and 7"),
-        (rest(RenderOptions { picture: PictureKind::CostNodes, ..o() }), "picture is cost and cost-n"),
+        (
+            rest(RenderOptions { picture: PictureKind::CostNodes, ..o() }),
+            "picture is cost and cost-n",
+        ),
         (rest(RenderOptions { all_layers: true, ..o() }), "layers is cost of 2 and color of 4"),
         (rest(RenderOptions { exposure: 2.0, ..o() }), "exposure is 1 and 2"),
         (rest(RenderOptions { heat_max: Some(9.0), ..o() }), "heat_max is none and 9"),
@@ -274,9 +283,14 @@ fn parts_that_are_none_of_the_picture_are_refused() {
     let (world, camera, lights) = &*SCENE;
     let refused = |options: &RenderOptions| render(world, camera, lights, options).unwrap_err();
     let options = plain(8, 6, 4);
-    for (x, y, width, height) in
-        [(0, 0, 0, 1), (0, 0, 1, 0), (8, 0, 1, 1), (0, 5, 8, 2), (1, 0, 8, 6), (usize::MAX, 0, 2, 1)]
-    {
+    for (x, y, width, height) in [
+        (0, 0, 0, 1),
+        (0, 0, 1, 0),
+        (8, 0, 1, 1),
+        (0, 5, 8, 2),
+        (1, 0, 8, 6),
+        (usize::MAX, 0, 2, 1),
+    ] {
         let crop = Some(Crop { x, y, width, height });
         let error = refused(&RenderOptions { crop, ..options.clone() });
         assert!(matches!(error, RenderError::Crop { .. }), "{error}");

@@ -1,7 +1,7 @@
 //! What parts are added up in.
 
-use super::seen::Seen;
 use super::MergeError;
+use super::seen::Seen;
 use crate::film::{MAX_PICTURE_BYTES, filled, nothing};
 use crate::part::Crop;
 use crate::picture::{COUNT, Channel, Layer, Picture, Samples, is_of_middle};

@@ -29,7 +29,11 @@ impl Picture {
         }
         let is_part = self.crop().is_within(width, height)
             && is_range_of(&self.part.sample_range, self.part.samples);
-        if is_part { Ok((width, height)) } else { Err(WriteError::Part(Box::new(self.part.clone()))) }
+        if is_part {
+            Ok((width, height))
+        } else {
+            Err(WriteError::Part(Box::new(self.part.clone())))
+        }
     }
 
     /// Whether every list of the picture has an entry for each pixel.

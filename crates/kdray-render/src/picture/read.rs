@@ -128,7 +128,8 @@ fn layout(header: &Header, label: &Label) -> Result<Vec<Plan>, ReadError> {
         if !label.complete {
             plans.push(COUNT);
         }
-        let mut names = plans.iter().flat_map(|plan| plan.channels.iter().map(|it| (plan.name, it)));
+        let mut names =
+            plans.iter().flat_map(|plan| plan.channels.iter().map(|it| (plan.name, it)));
         let count = names.clone().count();
         let all_there = names.all(|(layer, &channel)| {
             let kind = if is_whole(channel) { SampleType::U32 } else { SampleType::F32 };

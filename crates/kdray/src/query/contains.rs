@@ -5,6 +5,7 @@ use crate::exact::is_on_triangle;
 use crate::geometry::Ray;
 use crate::primitives::Closure;
 use crate::traverse::CellWalk;
+use crate::traverse::wide::{Crossed, Inside, NoAim, search_along};
 
 impl<T: Precision> Scene<T> {
     /// Whether `point` is inside the mesh or on its surface. Never so for a point that is not
@@ -39,12 +40,13 @@ impl<T: Precision> Scene<T> {
     }
 
     /// [`contains`](Self::contains) of each point, on this thread: `inside[i]` is that of
-    /// `points[i]`.
+    /// `points[i]`. Faster than one after the other in a closed mesh.
     ///
     /// # Panics
     /// If the slices differ in length.
     pub fn contains_each(&self, points: &[[f64; 3]], inside: &mut [bool]) {
-        points::each(points, inside, |point| self.contains(point));
+        assert_eq!(points.len(), inside.len(), "as many answers as points");
+        T::contains_each(self, points, inside);
     }
 
     /// [`contains_each`](Self::contains_each) on all threads of the current rayon pool.
@@ -53,7 +55,7 @@ impl<T: Precision> Scene<T> {
     /// If the slices differ in length.
     #[cfg(feature = "rayon")]
     pub fn par_contains_each(&self, points: &[[f64; 3]], inside: &mut [bool]) {
-        points::par_each(points, inside, |point| self.contains(point));
+        points::par_chunks(points, inside, |points, inside| self.contains_each(points, inside));
     }
 
     /// Whether the mesh is closed, and whether it faces one way. Found out when it is first asked
@@ -64,8 +66,46 @@ impl<T: Precision> Scene<T> {
 
     /// What [`Precision`] compiles.
     pub(super) fn finds_inside(&self, point: [f64; 3]) -> bool {
-        point.iter().all(|x| x.is_finite())
-            && (self.is_on_surface(point) || self.contains_off_surface(point))
+        if !point.iter().all(|x| x.is_finite()) {
+            return false;
+        }
+        match self.wide_and_mesh().filter(|_| self.closure().is_closed()) {
+            None => self.is_on_surface(point) || self.contains_off_surface(point),
+            Some(tree) => self.way_out(point).is_some_and(|ray| {
+                let mut crossed = Crossed::default();
+                let set = self.instructions;
+                match search_along::<Inside<'_, T>>(tree, &ray, set, &mut crossed) {
+                    Ok(()) | Err(NoAim::Missed) => crossed.is_inside(),
+                    Err(NoAim::OutOfRange) => self.begins_inside(&ray),
+                }
+            }),
+        }
+    }
+
+    /// What [`Precision`] compiles: the ways out of a closed mesh in turns.
+    pub(super) fn find_inside_each(&self, points: &[[f64; 3]], inside: &mut [bool]) {
+        const PORTION: usize = 1024;
+        if !self.closure().is_closed() {
+            return points::each(points, inside, |point| self.finds_inside(point));
+        }
+        let mut ways = Vec::with_capacity(PORTION.min(points.len()));
+        for (points, inside) in points.chunks(PORTION).zip(inside.chunks_mut(PORTION)) {
+            inside.fill(false);
+            ways.clear();
+            let finite = |point: &[f64; 3]| point.iter().all(|x| x.is_finite());
+            let numbered = points.iter().enumerate().filter(|(_, point)| finite(point));
+            ways.extend(numbered.filter_map(|(i, &point)| Some((i, self.way_out(point)?))));
+            let one = |ray: &Ray| Crossed::of(self.begins_inside(ray));
+            let rays = ways.iter().map(|(_, ray)| ray);
+            self.each::<Inside<'_, T>>(rays, one, |way, crossed| {
+                inside[ways[way].0] = crossed.is_inside();
+            });
+        }
+    }
+
+    /// Whether a closed mesh holds the origin of a ray, by the scalar traversal.
+    fn begins_inside(&self, ray: &Ray) -> bool {
+        self.is_on_surface(ray.origin) || self.shapes().count(ray) % 2 == 1
     }
 
     /// Whether a point with finite coordinates lies on a triangle. Exact: a point of a triangle is, in the

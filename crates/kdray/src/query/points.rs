@@ -37,3 +37,20 @@ pub(super) fn par_each<A: Send>(
     let places = points.par_iter().zip(answers).with_min_len(RUN);
     places.for_each(|(&point, place)| *place = answer(point));
 }
+
+/// Hands points to all threads of the current rayon pool, with the room for their answers.
+///
+/// # Panics
+/// If the slices differ in length.
+#[cfg(feature = "rayon")]
+pub(super) fn par_chunks<A: Send>(
+    points: &[[f64; 3]],
+    answers: &mut [A],
+    answer: impl Fn(&[[f64; 3]], &mut [A]) + Sync,
+) {
+    use rayon::prelude::*;
+    const CHUNK: usize = 1024;
+    assert_eq!(points.len(), answers.len(), "as many answers as points");
+    let chunks = points.par_chunks(CHUNK).zip(answers.par_chunks_mut(CHUNK));
+    chunks.for_each(|(points, answers)| answer(points, answers));
+}

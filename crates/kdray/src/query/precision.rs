@@ -60,6 +60,8 @@ pub trait Precision: Coordinate {
     #[doc(hidden)]
     fn contains(scene: &Scene<Self>, point: [f64; 3]) -> bool;
     #[doc(hidden)]
+    fn contains_each(scene: &Scene<Self>, points: &[[f64; 3]], inside: &mut [bool]);
+    #[doc(hidden)]
     fn signed_distance(scene: &Scene<Self>, point: [f64; 3]) -> Option<f64>;
     #[doc(hidden)]
     fn winding_number(scene: &Scene<Self>, point: [f64; 3]) -> f64;
@@ -159,6 +161,10 @@ macro_rules! compile_for {
 
                 fn contains(scene: &Scene<Self>, point: [f64; 3]) -> bool {
                     scene.finds_inside(point)
+                }
+
+                fn contains_each(scene: &Scene<Self>, points: &[[f64; 3]], inside: &mut [bool]) {
+                    scene.find_inside_each(points, inside);
                 }
 
                 fn signed_distance(scene: &Scene<Self>, point: [f64; 3]) -> Option<f64> {

@@ -11,7 +11,7 @@ use fearless_simd::prelude::*;
 
 /// The triangles that the ray crosses. What surely is hit needs no numbers, and is not tested again.
 pub(crate) struct Count<'a, T: 'static> {
-    mesh: &'a TriangleMesh<T>,
+    pub(super) mesh: &'a TriangleMesh<T>,
     ray: Ray<3>,
     /// In the order in which they were found; a triangle may be in several leaves.
     ids: Vec<u32>,
@@ -50,7 +50,7 @@ impl<'a, T: Coordinate> Search<'a> for Count<'a, T> {
 impl<T: Coordinate> Count<'_, T> {
     /// Adds the candidates that are sure, and those that exact arithmetic says are crossed.
     #[inline(never)]
-    fn add(&mut self, block: &TriangleBlock, mut candidates: u64, sure: u64) {
+    pub(super) fn add(&mut self, block: &TriangleBlock, mut candidates: u64, sure: u64) {
         while candidates != 0 {
             let lane = candidates.trailing_zeros() as usize;
             candidates &= candidates - 1;
