@@ -128,7 +128,8 @@ fn what_the_command_line_gets_wrong_is_named() {
     for (options, parts) in [
         (["--crop", "0,0,25x16"], &["--crop 0,0,25x16", "24 x 16"][..]),
         (["--crop", "24,0,1x1"], &["--crop 24,0,1x1"]),
-        (["--crop", "1,2,3"], &["--crop", "such as 0,270,480x270"]),
+        (["--crop", "1,2,3"], &["--crop", "give width and height"]),
+        (["--crop", "1,2"], &["--crop", "such as 0,270,480x270"]),
         (["--crop", "0,0,0x9"], &["--crop", "at least one pixel"]),
         (["--sample-range", "2..5"], &["--sample-range 2..5", "samples 0..4"]),
         (["--sample-range", "2..2"], &["--sample-range", "such as 0..8"]),
