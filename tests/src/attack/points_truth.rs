@@ -14,6 +14,9 @@ use num_traits::{FromPrimitive, One, Signed, ToPrimitive};
 /// Triangles of more are too many to sum over for each point.
 const FEW: usize = 2000;
 
+/// Differences, products and sums of a solid angle have fewer than thirty roundings.
+const ROUNDINGS: f64 = 32.0 / (1_u64 << 53) as f64;
+
 /// What is known of a mesh.
 pub struct PointTruth<'a> {
     target: &'a Target,
@@ -67,7 +70,7 @@ impl<'a> PointTruth<'a> {
     }
 
     /// The sum of all solid angles, as a share of the sphere (van Oosterom and Strackee 1983); `None` if it is
-    /// too long.
+    /// too long, or the point so near a triangle that rounding may put it on the other side.
     pub fn winding_number(&self, point: [f64; 3]) -> Option<f64> {
         let mesh = &self.target.mesh;
         let count = mesh.triangles().len();
@@ -75,10 +78,13 @@ impl<'a> PointTruth<'a> {
             let [a, b, c] =
                 mesh.corners(id).map(|p| DVec3::from(p.map(f64::from)) - DVec3::from(point));
             let [x, y, z] = [a, b, c].map(DVec3::length);
-            (a.dot(b.cross(c))).atan2(x * y * z + a.dot(b) * z + b.dot(c) * x + c.dot(a) * y)
+            let volume = a.dot(b.cross(c));
+            let facing = x * y * z + a.dot(b) * z + b.dot(c) * x + c.dot(a) * y;
+            let error = ROUNDINGS * x * y * z;
+            (volume.abs() > error || facing > error).then(|| volume.atan2(facing))
         };
-        let sum = || (0..count as u32).map(angle).sum::<f64>() / std::f64::consts::TAU;
-        (count <= FEW).then(sum)
+        let sum = || (0..count as u32).map(angle).sum::<Option<f64>>();
+        Some((count <= FEW).then(sum)?? / std::f64::consts::TAU)
     }
 
     /// Whether nothing is between two points; `None` if their difference is not an f64.
