@@ -5,8 +5,8 @@ use crate::files::Look;
 use crate::job::{Control, Job};
 use crate::picture::Picture;
 use crate::tree::{Kind, Tree};
-use kdray_render::{Background, CameraError, PictureKind, RenderError, RenderOptions, frame};
-use kdray_render::{RenderProgress, point_light_for, render_with_progress};
+use kdray_render::{Background, CameraError, Crop, PictureKind, RenderError, RenderOptions};
+use kdray_render::{RenderProgress, frame, point_light_for, render_with_progress};
 use kdray_scene::{Camera, Light, Model, Projection};
 use pyo3::{FromPyObject, Py, PyAny, PyErr, PyResult, Python, pyclass, pyfunction, pymethods};
 use std::ops::ControlFlow;
@@ -65,6 +65,10 @@ pub(crate) struct Quality {
     occlusion_distance: Option<f64>,
     exposure: f32,
     heat_max: Option<f32>,
+    /// x, y, width, height.
+    crop: Option<[usize; 4]>,
+    /// The first, and that behind the last.
+    sample_range: Option<[u32; 2]>,
 }
 
 /// Renders a picture.
@@ -114,6 +118,8 @@ fn options(view: &View, quality: &Quality) -> PyResult<RenderOptions> {
         light_samples: quality.light_samples,
         exposure: quality.exposure,
         heat_max: quality.heat_max,
+        crop: quality.crop.map(|[x, y, width, height]| Crop { x, y, width, height }),
+        sample_range: quality.sample_range.map(|[first, end]| first..end),
     })
 }
 
@@ -172,6 +178,8 @@ fn refused(error: RenderError) -> PyErr {
         RenderError::Camera(CameraError::NoUp) => "up",
         RenderError::Camera(_) => "fov",
         RenderError::Light(_) => "light",
+        RenderError::Crop { .. } => "crop",
+        RenderError::SampleRange { .. } => "sample_range",
         RenderError::Option { option: "max_bounces", .. } => "bounces",
         RenderError::Option { option, .. } => option,
         _ => "picture",

@@ -43,6 +43,20 @@ def test_rays_of_a_picture_are_those_of_queries(cube):
     np.testing.assert_array_equal(ids.astype(np.int32), hits.primitive_id)
 
 
+def test_parts_of_a_picture(cube):
+    whole = cube.render(width=48, height=32, samples=4)
+    part = cube.render(width=48, height=32, samples=4, crop=(7, 5, 30, 20))
+    np.testing.assert_array_equal(part, whole[5:25, 7:37])
+    light = [
+        cube.render(width=48, height=32, samples=4, sample_range=(first, first + 2)).layers["color.G"]
+        for first in (0, 2)
+    ]
+    np.testing.assert_allclose(np.mean(light, axis=0), whole.layers["color.G"], rtol=1e-5, atol=1e-6)
+    fails(kdray.ArgumentError, "crop", lambda: cube.render(**SMALL, crop=(0, 0, 49, 1)))
+    fails(kdray.ArgumentError, "crop", lambda: cube.render(**SMALL, crop=(0, 0, 9)))
+    fails(kdray.ArgumentError, "sample_range", lambda: cube.render(**SMALL, sample_range=(1, 2)))
+
+
 @pytest.mark.parametrize("name", ["depth", "normal", "ambient-occlusion", "cost", "cost-nodes", "packet-cost"])
 def test_other_pictures(cube, name):
     picture = cube.render(**SMALL, picture=name)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
+from collections.abc import Iterable
 from threading import Lock
 from typing import TYPE_CHECKING, Any, Optional, Union
 
@@ -56,6 +57,8 @@ class Rendering:
         occlusion_distance: Optional[float] = None,
         exposure: float = 1.0,
         heat_max: Optional[float] = None,
+        crop: Optional[tuple[int, int, int, int]] = None,
+        sample_range: Optional[tuple[int, int]] = None,
         threads: Optional[int] = None,
         progress: Progress = None,
     ) -> Picture:
@@ -83,6 +86,13 @@ class Rendering:
         ``exposure``, ``heat_max``
             What light is multiplied by in the array, and the cost that has the last colour.
 
+        ``crop``
+            The part (x, y, width, height) of the picture that is rendered, from its upper left corner: the same
+            pixels, bit for bit.
+        ``sample_range``
+            Which of the samples of each pixel are taken, the first and that behind the last: ``color`` in
+            ``layers`` is the mean of these.
+
         The same ``seed`` gives the same picture, on any number of threads.
         """
         view = {
@@ -109,6 +119,8 @@ class Rendering:
             "occlusion_distance": _number("occlusion_distance", occlusion_distance),
             "exposure": _number("exposure", exposure),
             "heat_max": _number("heat_max", heat_max),
+            "crop": None if crop is None else _counts("crop", crop, 4),
+            "sample_range": None if sample_range is None else _counts("sample_range", sample_range, 2),
         }
         with telling(progress, "pixel") as told:
             world = self._seen(threads)
@@ -129,6 +141,13 @@ def _count(name: str, number: int, bits: int = 32) -> int:
     if not 0 <= count < 1 << bits:
         raise ArgumentError(f"{name}: give a whole number from 0, of {bits} bits")
     return count
+
+
+def _counts(name: str, numbers: Iterable[int], many: int) -> list[int]:
+    counts = [_count(name, number) for number in numbers]
+    if len(counts) != many:
+        raise ArgumentError(f"{name}: give {many} whole numbers, not {len(counts)}")
+    return counts
 
 
 def _number(name: str, number: Optional[float]) -> Optional[float]:
