@@ -1,0 +1,131 @@
+"""kdray.dask: the same answers as on one machine, whatever becomes of workers."""
+
+import os
+import signal
+import time
+
+import numpy as np
+import pytest
+from conftest import random_rays, sphere
+
+import kdray
+
+da = pytest.importorskip("dask.array")
+import kdray.dask  # noqa: E402
+
+
+@pytest.fixture(scope="module")
+def tree(tmp_path_factory):
+    path = tmp_path_factory.mktemp("tree") / "ball.kdray"
+    kdray.Scene(*sphere(30)).save(path)
+    return path
+
+
+@pytest.fixture(scope="module")
+def rays():
+    return random_rays(5000)
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_answers_are_those_of_one_machine(tree, rays, dtype):
+    rays = rays.astype(dtype)
+    scene = kdray.Scene.mmap(tree)
+    lazy = kdray.dask.closest_hit(tree, da.from_array(rays, chunks=(700, 2)))
+    assert lazy.shape == (5000,) and lazy["t"].dtype == dtype
+    hits, expected = lazy.compute(), scene.closest_hit(rays)
+    for name in ("t", "u", "v", "primitive_id", "front"):
+        np.testing.assert_array_equal(hits[name], getattr(expected, name))
+    for query in ("any_hit", "count"):
+        answers = getattr(kdray.dask, query)(tree, rays, per_task=999)
+        assert answers.npartitions == 6
+        np.testing.assert_array_equal(answers.compute(), getattr(scene, query)(rays))
+    points = rays[:, :3] * dtype(0.6)
+    for query in ("contains", "signed_distance"):
+        answers = getattr(kdray.dask, query)(tree, points, per_task=999).compute()
+        np.testing.assert_array_equal(answers, getattr(scene, query)(points))
+
+
+def test_all_hits_of_all_blocks(tree, rays):
+    hits = kdray.dask.all_hits(tree, rays, per_task=999, t_max=0.9).compute()
+    expected = kdray.Scene.mmap(tree).all_hits(rays, t_max=0.9)
+    for name in ("ray_id", "t", "u", "v", "primitive_id", "front"):
+        np.testing.assert_array_equal(hits[name], getattr(expected, name))
+
+
+def test_pictures_of_rays_keep_their_shape(tree, rays):
+    picture = rays.reshape(50, 100, 6)
+    hits = kdray.dask.closest_hit(tree, picture, per_task=300)
+    assert hits.shape == (50, 100) and hits.npartitions > 10
+    np.testing.assert_array_equal(hits["t"].compute(), kdray.Scene.mmap(tree).closest_hit(picture).t)
+
+
+def test_rays_from_files(tree, rays, tmp_path):
+    expected = kdray.Scene.mmap(tree).closest_hit(rays).t
+    np.save(tmp_path / "rays.npy", rays)
+    lazy = kdray.dask.rays_from(tmp_path / "rays.npy", per_task=999)
+    assert lazy.numblocks == (6, 1)
+    np.testing.assert_array_equal(kdray.dask.closest_hit(tree, lazy)["t"].compute(), expected)
+    np.save(tmp_path / "empty.npy", np.zeros((0, 6)))
+    assert kdray.dask.count(tree, kdray.dask.rays_from(tmp_path / "empty.npy")).compute().shape == (0,)
+    pytest.importorskip("zarr")
+    da.from_array(rays, chunks=(1000, 6)).to_zarr(str(tmp_path / "rays.zarr"))
+    lazy = kdray.dask.rays_from(tmp_path / "rays.zarr")
+    np.testing.assert_array_equal(kdray.dask.closest_hit(tree, lazy)["t"].compute(), expected)
+
+
+def test_rays_from_parquet(tree, rays, tmp_path):
+    pytest.importorskip("pyarrow")
+    pandas = pytest.importorskip("pandas")
+    pandas.DataFrame(rays, columns=list("abcdef")).to_parquet(tmp_path / "rays.parquet")
+    lazy = kdray.dask.rays_from(tmp_path / "rays.parquet")
+    expected = kdray.Scene.mmap(tree).closest_hit(rays).t
+    np.testing.assert_array_equal(kdray.dask.closest_hit(tree, lazy)["t"].compute(), expected)
+
+
+@pytest.mark.parametrize(
+    ("call", "name"),
+    [
+        (lambda tree: kdray.dask.closest_hit(tree, np.zeros((3, 5))), "rays"),
+        (lambda tree: kdray.dask.all_hits(tree, np.zeros((3, 2, 6))), "rays"),
+        (lambda tree: kdray.dask.contains(tree, np.zeros((3, 6))), "points"),
+        (lambda tree: kdray.dask.any_hit(tree, np.zeros((3, 6)), per_task=0), "per_task"),
+        (lambda tree: kdray.dask.rays_from("rays.txt"), "path"),
+        (lambda tree: kdray.dask.any_hit(str(tree) + ".gone", np.zeros((3, 6))), "gone"),
+    ],
+)
+def test_errors_name_the_argument(tree, call, name):
+    with pytest.raises(kdray.KdrayError, match=name):
+        call(tree)
+
+
+def test_a_tree_that_changed_is_an_error(tree, rays, tmp_path):
+    path = tmp_path / "changing.kdray"
+    kdray.Scene(*sphere(8)).save(path)
+    hits = kdray.dask.closest_hit(path, rays)
+    kdray.Scene(*sphere(9)).save(path)
+    with pytest.raises(kdray.KdrayError, match="another tree"):
+        hits.compute()
+
+
+def test_a_worker_that_is_killed_loses_nothing(tree):
+    distributed = pytest.importorskip("distributed")
+    rays = random_rays(200_000)
+    with distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, dashboard_address=None
+    ) as cluster, distributed.Client(cluster) as client:
+        lazy = kdray.dask.closest_hit(tree, rays, per_task=2000)["t"]
+        future = client.compute(lazy)
+        victim = next(iter(client.scheduler_info()["workers"]))
+        pid = client.run(os.getpid, workers=[victim])[victim]
+        deadline = time.monotonic() + 60
+        while not any(state == "memory" for state in client.run_on_scheduler(states)):
+            assert time.monotonic() < deadline, "no task was finished"
+            time.sleep(0.01)
+        os.kill(pid, signal.SIGKILL)
+        assert not future.done(), "the worker died too late to be missed"
+        t = future.result(timeout=120)
+    np.testing.assert_array_equal(t, kdray.Scene.mmap(tree).closest_hit(rays).t)
+
+
+def states(dask_scheduler):
+    return [task.state for task in dask_scheduler.tasks.values()]
