@@ -17,7 +17,6 @@ threads as Dask gives it: one.
 
 from __future__ import annotations
 
-from functools import lru_cache
 from os import PathLike, fspath
 from pathlib import Path
 from typing import Any, Callable, Union
@@ -96,9 +95,11 @@ def all_hits(tree: TreeFile, rays: Any, *, per_task: int = PER_TASK, **options: 
         return table
 
     lengths = ((np.nan,) * len(firsts),)
-    return da.map_blocks(
-        hits, blocks, first, dtype=records, drop_axis=1, chunks=lengths, meta=np.empty(0, records)
+    meta = np.empty(0, records)
+    found: da.Array = da.map_blocks(
+        hits, blocks, first, dtype=records, drop_axis=1, chunks=lengths, meta=meta
     )
+    return found
 
 
 def contains(tree: TreeFile, points: Any, *, per_task: int = PER_TASK, **options: Any) -> da.Array:
@@ -127,7 +128,9 @@ def _asked(
         return table
 
     meta = np.empty((0,) * (blocks.ndim - 1), dtype)
-    return da.map_blocks(answers, blocks, dtype=dtype, drop_axis=blocks.ndim - 1, meta=meta)
+    last = blocks.ndim - 1
+    found: da.Array = da.map_blocks(answers, blocks, dtype=dtype, drop_axis=last, meta=meta)
+    return found
 
 
 def _known(tree: TreeFile) -> tuple[str, str]:
@@ -136,12 +139,23 @@ def _known(tree: TreeFile) -> tuple[str, str]:
     return path, Scene.mmap(path).content_hash
 
 
-@lru_cache(maxsize=16)
+_OPENED: dict[tuple[str, str], Scene] = {}
+"""The trees that this worker has mapped."""
+
+MOST_OPENED = 16
+"""How many trees a worker keeps mapped."""
+
+
 def _opened(path: str, content_hash: str) -> Scene:
     """The tree, mapped once in each worker."""
-    scene = Scene.mmap(path)
-    if scene.content_hash != content_hash:
-        raise FileError(f"{path} is another tree than when the query was made; make it anew")
+    scene = _OPENED.get((path, content_hash))
+    if scene is None:
+        scene = Scene.mmap(path)
+        if scene.content_hash != content_hash:
+            raise FileError(f"{path} is another tree than when the query was made; make it anew")
+        if len(_OPENED) >= MOST_OPENED:
+            _OPENED.clear()
+        _OPENED[path, content_hash] = scene
     return scene
 
 
@@ -190,4 +204,6 @@ def _rays_from_npy(path: str, per_task: int) -> da.Array:
         rays: NDArray[Any] = np.array(np.load(path, mmap_mode="r")[start:stop])
         return rays
 
-    return da.map_blocks(part, chunks=(sizes, (6,)), dtype=header.dtype, meta=header[:0, :0])
+    meta = np.empty((0, 0), header.dtype)
+    rays: da.Array = da.map_blocks(part, chunks=(sizes, (6,)), dtype=header.dtype, meta=meta)
+    return rays

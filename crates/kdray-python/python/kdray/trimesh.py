@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .arrays import vectors
 from .errors import ArgumentError
+from .hits import Hits
 from .scene import Scene
 
 __all__ = ["RayMeshIntersector"]
@@ -95,9 +96,10 @@ class RayMeshIntersector:
         With ``multiple_hits`` all, but not more than the first ``max_hits`` of each ray; else the first.
         """
         rays, scene = self._rays(ray_origins, ray_directions), self.scene
+        hits: Hits
         if multiple_hits:
-            every = scene.all_hits(**rays, limit=max_hits)
-            hits, index_ray = every, every.ray_id
+            hits = every = scene.all_hits(**rays, limit=max_hits)
+            index_ray = every.ray_id
         else:
             closest = scene.closest_hit(**rays)
             index_ray = np.flatnonzero(closest.hit).astype(np.int64)
