@@ -103,8 +103,32 @@ def test_a_tree_that_changed_is_an_error(tree, rays, tmp_path):
     kdray.Scene(*sphere(8)).save(path)
     hits = kdray.dask.closest_hit(path, rays)
     kdray.Scene(*sphere(9)).save(path)
-    with pytest.raises(kdray.KdrayError, match="another tree"):
+    with pytest.raises(kdray.KdrayError, match="has changed"):
         hits.compute()
+
+
+def test_pictures_are_those_of_one_machine(tree):
+    size = {"width": 60, "height": 40, "samples": 4}
+    whole = kdray.Scene.mmap(tree).render(**size)
+    tiles = kdray.dask.render(tree, tile=25, **size)
+    assert tiles.numblocks == (2, 3, 1) and tiles.dtype == np.uint8
+    np.testing.assert_array_equal(tiles.compute(), whole)
+    light = kdray.dask.radiance(tree, tile=32, samples_per_task=3, **size)
+    assert light.shape == (40, 60, 3) and light.dtype == np.float32
+    expected = np.stack([whole.layers[f"color.{channel}"] for channel in "RGB"], axis=-1)
+    np.testing.assert_allclose(light.compute(), expected, rtol=1e-5, atol=1e-6)
+
+
+def test_pictures_of_mesh_files(tmp_path):
+    path = tmp_path / "face.obj"
+    path.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    size = {"width": 24, "height": 16, "samples": 1}
+    picture = kdray.dask.render(path, tile=10, **size)
+    np.testing.assert_array_equal(picture.compute(), kdray.Scene.of(path).render(**size))
+    path.write_text("v 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n")
+    kdray.dask._OPENED.clear()
+    with pytest.raises(kdray.KdrayError, match="has changed"):
+        picture.compute()
 
 
 def test_a_worker_that_is_killed_loses_nothing(tree):

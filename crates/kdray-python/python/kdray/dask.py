@@ -17,6 +17,8 @@ threads as Dask gives it: one.
 
 from __future__ import annotations
 
+import os
+from hashlib import blake2b
 from os import PathLike, fspath
 from pathlib import Path
 from typing import Any, Callable, Union
@@ -25,14 +27,29 @@ import dask.array as da
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
+from . import _kdray
 from .errors import ArgumentError, FileError
 from .hits import Hits
+from .saved import path_of
 from .scene import Scene
 
-__all__ = ["all_hits", "any_hit", "closest_hit", "contains", "count", "rays_from", "signed_distance"]
+__all__ = [
+    "all_hits",
+    "any_hit",
+    "closest_hit",
+    "contains",
+    "count",
+    "radiance",
+    "rays_from",
+    "render",
+    "signed_distance",
+]
 
 TreeFile = Union[str, "PathLike[str]"]
 """The path of a saved tree."""
+
+Crop = tuple[int, int, int, int]
+"""x, y, width and height of a part of a picture."""
 
 PER_TASK = 2_000_000
 """Rays or points a task, unless told otherwise: seconds of work, and 160 MB of rays and hits in f64."""
@@ -115,6 +132,78 @@ def signed_distance(
     return _asked(tree, "signed_distance", blocks, blocks.dtype, options)
 
 
+def render(
+    scene: TreeFile, *, width: int = 960, height: int = 540, tile: int = 256, **options: Any
+) -> da.Array:
+    """A picture (height, width, 3) of uint8 of a mesh file or a saved tree, of which each task renders a tile.
+
+    ``options`` are those of ``kdray.Scene.render``. The pixels are those of one machine, bit for bit; pictures of
+    cost need a ``heat_max``, or each tile would have its own. Stack the pictures of several cameras for an animation.
+    """
+
+    def pixels(seen: Scene, crop: Crop) -> NDArray[np.uint8]:
+        picture = seen.render(width=width, height=height, crop=crop, threads=1, **options)
+        return np.asarray(picture).copy()
+
+    return _tiles(scene, (height, width), tile, np.uint8, pixels)
+
+
+def radiance(
+    scene: TreeFile,
+    *,
+    width: int = 960,
+    height: int = 540,
+    tile: int = 256,
+    samples: int = 16,
+    samples_per_task: int = 16,
+    **options: Any,
+) -> da.Array:
+    """The light (height, width, 3), linear RGB in f32, of which each task renders some samples of a tile.
+
+    The mean of all samples, as ``Scene.render(...).layers`` has it but for the rounding of sums.
+    """
+    for name, number in (("samples", samples), ("samples_per_task", samples_per_task)):
+        if number < 1:
+            raise ArgumentError(f"{name}: give 1 or more, not {number}")
+
+    def light(first: int, end: int) -> da.Array:
+        def sums(seen: Scene, crop: Crop) -> NDArray[np.float64]:
+            part: dict[str, Any] = {"samples": samples, "sample_range": (first, end), "crop": crop}
+            layers = seen.render(width=width, height=height, threads=1, **part, **options).layers
+            means = np.stack([layers[f"color.{channel}"] for channel in "RGB"], axis=-1)
+            return means.astype(np.float64) * (end - first)
+
+        return _tiles(scene, (height, width), tile, np.float64, sums)
+
+    starts = range(0, samples, samples_per_task)
+    parts = [light(first, min(first + samples_per_task, samples)) for first in starts]
+    mean: da.Array = (sum(parts[1:], start=parts[0]) / samples).astype(np.float32)
+    return mean
+
+
+def _tiles(
+    scene: TreeFile,
+    shape: tuple[int, int],
+    tile: int,
+    dtype: DTypeLike,
+    pixels: Callable[[Scene, Crop], NDArray[Any]],
+) -> da.Array:
+    """A picture of three channels, lazily, in tiles that ``pixels`` renders."""
+    if tile < 1:
+        raise ArgumentError(f"tile: give 1 or more, not {tile}")
+    path, content_hash = _known(scene)
+
+    def part(block_info: Any = None) -> NDArray[Any]:
+        rows, columns, _ = block_info[None]["array-location"]
+        crop = (columns[0], rows[0], columns[1] - columns[0], rows[1] - rows[0])
+        return pixels(_opened(path, content_hash), crop)
+
+    chunks = da.core.normalize_chunks((tile, tile, 3), (*shape, 3))
+    meta = np.empty((0, 0, 0), dtype)
+    picture: da.Array = da.map_blocks(part, chunks=chunks, dtype=dtype, meta=meta)
+    return picture
+
+
 def _asked(
     tree: TreeFile, query: str, blocks: da.Array, dtype: DTypeLike, options: dict[str, Any]
 ) -> da.Array:
@@ -133,26 +222,37 @@ def _asked(
     return found
 
 
-def _known(tree: TreeFile) -> tuple[str, str]:
-    """A tree's path as workers see it, and the hash of what it holds."""
-    path = str(Path(tree).resolve())
-    return path, Scene.mmap(path).content_hash
+def _known(file: TreeFile) -> tuple[str, str]:
+    """A file's path as workers see it, and the hash of what it holds."""
+    path = os.path.abspath(path_of("path", file))
+    return path, _hash_of(path)
+
+
+def _hash_of(path: str) -> str:
+    """Of a tree file that which it says of itself; of a mesh file one of all its bytes."""
+    if _kdray.is_tree_file(path):
+        return _kdray.file_hash(path)
+    try:
+        with open(path, "rb") as file:
+            return blake2b(file.read()).hexdigest()
+    except OSError as error:
+        raise FileError(f"{path}: {error.strerror}") from error
 
 
 _OPENED: dict[tuple[str, str], Scene] = {}
-"""The trees that this worker has mapped."""
+"""The scenes that this worker has opened."""
 
 MOST_OPENED = 16
-"""How many trees a worker keeps mapped."""
+"""How many scenes a worker keeps open."""
 
 
 def _opened(path: str, content_hash: str) -> Scene:
-    """The tree, mapped once in each worker."""
+    """The scene of a file, opened once in each worker; trees are mapped."""
     scene = _OPENED.get((path, content_hash))
     if scene is None:
-        scene = Scene.mmap(path)
-        if scene.content_hash != content_hash:
-            raise FileError(f"{path} is another tree than when the query was made; make it anew")
+        if _hash_of(path) != content_hash:
+            raise FileError(f"{path} has changed since the query was made; make it anew")
+        scene = Scene.mmap(path) if _kdray.is_tree_file(path) else Scene.of(path)
         if len(_OPENED) >= MOST_OPENED:
             _OPENED.clear()
         _OPENED[path, content_hash] = scene
