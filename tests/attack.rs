@@ -11,8 +11,8 @@ use std::time::Duration;
 
 /// How many rays are shot at meshes made by code, and how many at small scenes: each is asked about in some
 /// forty ways.
-const RAYS: u64 = 6_000;
-const RAYS_AT_SCENES: u64 = 3_000;
+const RAYS: u64 = 3_000;
+const RAYS_AT_SCENES: u64 = 1_500;
 
 /// Scenes of at most so many triangles are shot at.
 const SMALL: usize = 2_000;
