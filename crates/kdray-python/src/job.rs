@@ -50,11 +50,6 @@ impl Control {
 }
 
 impl Job {
-    /// On how many threads.
-    pub(crate) fn threads(&self) -> usize {
-        self.threads
-    }
-
     /// By the arguments of a call.
     pub(crate) fn new(threads: Option<i64>, progress: Option<Py<PyAny>>) -> PyResult<Self> {
         Ok(Self { threads: pool::threads(threads)?, progress })

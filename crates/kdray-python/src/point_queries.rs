@@ -3,7 +3,7 @@
 use crate::closest_point::{self as nearest, Arrays};
 use crate::error::{ArgumentError, argument};
 use crate::job::{self, Control, Job};
-use crate::points::{self, Points, Surface, each_point, for_points, prepare};
+use crate::points::{self, Points, Surface, each_block, each_point, for_points};
 use crate::rows::Floats;
 use crate::tree::Tree;
 use kdray::Side;
@@ -27,8 +27,8 @@ pub(crate) fn contains<'py>(
     let points = Points::new(points.rows("points")?, "points", lenient);
     let job = Job::new(threads, progress)?;
     let answer = for_points!(tree, scene => {
-        py.detach(|| prepare(tree, scene, job.threads()));
-        run(py, &job, points.len(), |control| each_point(&points, control, |it| scene.contains(it)))
+        let block = |points: &[[f64; 3]], inside: &mut [bool]| scene.contains_each(points, inside);
+        run(py, &job, points.len(), |control| each_block(&points, control, block))
     });
     answer.map(|inside| inside.into_pyarray(py))
 }
@@ -48,7 +48,6 @@ pub(crate) fn signed_distance<'py>(
     let points = Points::new(points.rows("points")?, "points", lenient);
     let job = Job::new(threads, progress)?;
     let answer = for_points!(tree, scene => {
-        py.detach(|| prepare(tree, scene, job.threads()));
         let one = |point| scene.signed_distance(point).unwrap_or(f64::NAN);
         run(py, &job, points.len(), |control| each_point(&points, control, one))
     });
@@ -70,7 +69,6 @@ pub(crate) fn winding_number<'py>(
     let points = Points::new(points.rows("points")?, "points", lenient);
     let job = Job::new(threads, progress)?;
     let answer = for_points!(tree, scene => {
-        py.detach(|| prepare(tree, scene, job.threads()));
         let one = |point| scene.winding_number(point);
         run(py, &job, points.len(), |control| each_point(&points, control, one))
     });

@@ -3,11 +3,9 @@
 use crate::error::{ArgumentError, UnsupportedError};
 use crate::job::{Control, each_part};
 use crate::rows::Rows;
-use crate::tree::Tree;
 use kdray::{Precision, Scene, Side};
 use numpy::ndarray::ArrayView1;
 use pyo3::{PyErr, PyResult};
-use rayon::ThreadPoolBuilder;
 use std::ops::Range;
 
 /// As many points as are read and answered at a time.
@@ -73,30 +71,29 @@ pub(crate) fn unsupported() -> PyErr {
     UnsupportedError::new_err(reason)
 }
 
-/// Finds out what all questions about inside and outside need, once for each scene.
-///
-/// On threads of its own, and the caller waits: a thread that sorts edges may take up other work meanwhile, and
-/// would wait for itself if that needed what it is about to find.
-pub(crate) fn prepare<T: Precision>(tree: &Tree, scene: &Scene<T>, threads: usize) {
-    tree.prepared.get_or_init(|| {
-        if let Ok(pool) = ThreadPoolBuilder::new().num_threads(threads).build() {
-            pool.install(|| scene.closure());
-        }
-    });
-}
-
 /// The answer for each point.
 pub(crate) fn each_point<A: Copy + Default + Send>(
     points: &Points<'_>,
     control: &Control,
     answer: impl Fn([f64; 3]) -> A + Send + Sync,
 ) -> PyResult<Vec<A>> {
+    each_block(points, control, |points, answers| {
+        answers.iter_mut().zip(points).for_each(|(place, &point)| *place = answer(point));
+    })
+}
+
+/// The same, where `answer` takes many points at once.
+pub(crate) fn each_block<A: Copy + Default + Send>(
+    points: &Points<'_>,
+    control: &Control,
+    answer: impl Fn(&[[f64; 3]], &mut [A]) + Send + Sync,
+) -> PyResult<Vec<A>> {
     let mut answers = vec![A::default(); points.len()];
     let parts = answers.chunks_mut(BLOCK).enumerate().collect();
     each_part(control, parts, Vec::new, |block, (index, answers): (usize, &mut [A])| {
         let first = index * BLOCK;
         points.read(first..first + answers.len(), block)?;
-        answers.iter_mut().zip(&*block).for_each(|(place, &point)| *place = answer(point));
+        answer(block, answers);
         control.add(answers.len());
         Ok(())
     })?;

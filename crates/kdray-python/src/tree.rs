@@ -13,7 +13,7 @@ use crate::surface;
 use kdray::{InstancedScene, Scene};
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::{Bound, Py, PyAny, PyResult, Python, pyclass, pymethods};
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 /// A built scene, to be asked from any thread.
 #[pyclass(frozen, module = "kdray._kdray")]
@@ -21,8 +21,6 @@ use std::sync::{Arc, OnceLock};
 pub(crate) struct Tree {
     pub(crate) kind: Kind,
     pub(crate) places: Places,
-    /// Whether it is known if the mesh is closed.
-    pub(crate) prepared: Arc<OnceLock<()>>,
 }
 
 /// What is asked.
@@ -50,7 +48,7 @@ pub(crate) use for_scene;
 impl From<Kind> for Tree {
     /// All of it is one geometry.
     fn from(kind: Kind) -> Self {
-        Self { kind, places: Places::One, prepared: Arc::default() }
+        Self { kind, places: Places::One }
     }
 }
 
