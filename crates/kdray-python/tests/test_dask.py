@@ -4,14 +4,15 @@ import os
 import signal
 import time
 
+import dask.array as da
+import distributed
 import numpy as np
+import pandas
 import pytest
 from conftest import random_rays, sphere
 
 import kdray
-
-da = pytest.importorskip("dask.array")
-import kdray.dask  # noqa: E402
+import kdray.dask
 
 
 @pytest.fixture(scope="module")
@@ -67,15 +68,12 @@ def test_rays_from_files(tree, rays, tmp_path):
     np.testing.assert_array_equal(kdray.dask.closest_hit(tree, lazy)["t"].compute(), expected)
     np.save(tmp_path / "empty.npy", np.zeros((0, 6)))
     assert kdray.dask.count(tree, kdray.dask.rays_from(tmp_path / "empty.npy")).compute().shape == (0,)
-    pytest.importorskip("zarr")
     da.from_array(rays, chunks=(1000, 6)).to_zarr(str(tmp_path / "rays.zarr"))
     lazy = kdray.dask.rays_from(tmp_path / "rays.zarr")
     np.testing.assert_array_equal(kdray.dask.closest_hit(tree, lazy)["t"].compute(), expected)
 
 
 def test_rays_from_parquet(tree, rays, tmp_path):
-    pytest.importorskip("pyarrow")
-    pandas = pytest.importorskip("pandas")
     pandas.DataFrame(rays, columns=list("abcdef")).to_parquet(tmp_path / "rays.parquet")
     lazy = kdray.dask.rays_from(tmp_path / "rays.parquet")
     expected = kdray.Scene.mmap(tree).closest_hit(rays).t
@@ -90,6 +88,7 @@ def test_rays_from_parquet(tree, rays, tmp_path):
         (lambda tree: kdray.dask.contains(tree, np.zeros((3, 6))), "points"),
         (lambda tree: kdray.dask.any_hit(tree, np.zeros((3, 6)), per_task=0), "per_task"),
         (lambda tree: kdray.dask.rays_from("rays.txt"), "path"),
+        (lambda tree: kdray.dask.any_hit(tree, np.zeros((3, 6)), t_max=np.ones(3)), "t_max"),
         (lambda tree: kdray.dask.any_hit(str(tree) + ".gone", np.zeros((3, 6))), "gone"),
     ],
 )
@@ -132,12 +131,11 @@ def test_pictures_of_mesh_files(tmp_path):
 
 
 def test_a_worker_that_is_killed_loses_nothing(tree):
-    distributed = pytest.importorskip("distributed")
-    rays = random_rays(200_000)
+    rays = random_rays(400_000)
     with distributed.LocalCluster(
         n_workers=2, threads_per_worker=1, dashboard_address=None
     ) as cluster, distributed.Client(cluster) as client:
-        lazy = kdray.dask.closest_hit(tree, rays, per_task=2000)["t"]
+        lazy = kdray.dask.closest_hit(tree, rays, per_task=1000)["t"]
         future = client.compute(lazy)
         victim = next(iter(client.scheduler_info()["workers"]))
         pid = client.run(os.getpid, workers=[victim])[victim]

@@ -43,6 +43,7 @@ def test_cast_rays(sheets):
 
 def test_list_intersections(sheets):
     found = sheets.list_intersections(RAYS)
+    assert found["ray_splits"].dtype == found["ray_ids"].dtype == np.uint32
     assert found["ray_splits"].tolist() == [0, 2, 2]
     assert found["ray_ids"].tolist() == [0, 0]
     assert found["t_hit"].tolist() == [1, 2]
@@ -76,6 +77,13 @@ def test_inside_and_outside(ball):
     np.testing.assert_array_equal(occupancy, (signed <= 0).astype(np.float32))
     radius = np.linalg.norm(points, axis=1)
     assert occupancy[radius < 0.85].all() and not occupancy[radius > 1].any()
+
+
+def test_points_that_are_none_are_nowhere(ball):
+    nowhere = np.float32([[np.nan, 0, 0]])
+    assert ball.compute_occupancy(nowhere).tolist() == [0]
+    assert np.isnan(ball.compute_distance(nowhere)).all()
+    assert np.isnan(ball.compute_signed_distance(nowhere)).all()
 
 
 def test_answers_are_those_of_a_scene(ball):
@@ -116,7 +124,8 @@ def test_tensors_and_meshes_are_taken(sheets):
         triangle = type("Triangle", (), {"indices": Tensor(CUBE_FACES)})
 
     scene = RaycastingScene()
-    assert scene.add_triangles(Mesh()) == 0
+    assert scene.add_triangles(mesh=Mesh()) == 0
+    assert RaycastingScene().add_triangles(Mesh()) == 0
     assert scene.compute_occupancy(Tensor(np.float32([[0.5, 0.5, 0.5]]))).tolist() == [1]
     assert scene.add_triangles(Tensor(CUBE_VERTICES), Tensor(CUBE_FACES.astype(np.uint32))) == 1
 

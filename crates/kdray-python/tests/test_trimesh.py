@@ -123,6 +123,7 @@ def test_rays_that_are_none_hit_nothing(ball):
     origins = [[0, 0, -5], [np.nan, 0, 0], [0, 0, -5]]
     directions = [[0, 0, 0], [0, 0, 1], [0, 0, 1]]
     assert ball.ray.intersects_any(origins, directions).tolist() == [False, False, True]
+    assert ball.ray.contains_points([[np.nan, 0, 0], [0, 0, 0]]).tolist() == [False, True]
 
 
 def test_errors_name_the_argument(ball):

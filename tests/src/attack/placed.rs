@@ -143,7 +143,7 @@ impl<'a> Copies<'a> {
         tally
     }
 
-    /// What is touched is so wherever axes point; what is crossed depends on how the ray is turned, which is done
+    /// What is touched is so wherever axes point; what is crossed depends on how the ray is moved, which is done
     /// in the space of each copy.
     fn truth(&self, flat: &Flat, ray: &Ray, mask: u32) -> Option<Truth> {
         let is_seen = |copy: u32| mask >> copy & 1 == 1;

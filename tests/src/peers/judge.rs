@@ -2,7 +2,7 @@
 //! and kdray is judged like everyone else.
 //!
 //! Whether a ray that only grazes a surface hits it depends on what a hit is. So a ray counts as lost only
-//! if it crosses the surface whichever way it is moved by an infinitesimal, and a hit as phantom
+//! if it crosses the surface in whichever of four ways it is moved by an infinitesimal, and a hit as phantom
 //! only if the ray does not even touch the surface. The number of hits must be even from outside and odd
 //! from inside, which holds for every way to count each crossing once.
 
@@ -17,7 +17,7 @@ use rayon::prelude::*;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Known {
     aim: Aim,
-    /// Whether it crosses the surface, whichever way it is moved.
+    /// Whether it crosses the surface, in whichever of four ways it is moved.
     crosses: bool,
     /// Whether it touches the surface at all.
     touches: bool,
@@ -55,7 +55,7 @@ pub fn truths(case: &Case) -> Vec<Known> {
         let is_touch = |t: f64| Interval::FORWARD.contains(t);
         Known {
             aim: shot.aim,
-            // Turned rays differ from each other only where the line meets an edge.
+            // Moved rays differ from each other only where the line meets an edge.
             crosses: first && (!truth.is_close || (1..4).all(|turn| crosses(turn).0)),
             touches: truth.touched.iter().any(|hit| is_touch(hit.t)),
             from_inside: shot.from_inside,

@@ -7,9 +7,9 @@
 >>> hits["t"].min().compute()                                           # doctest: +SKIP
 
 Answers are lazy arrays; those about hits are of records, whose fields are those of ``kdray.Hits``. They are the same
-to the last bit as those of one machine, whatever becomes of workers meanwhile: an answer depends on its rays and on
-the tree alone, and Dask does a task again that was lost. The tree is known by the hash of its content, so that a
-worker that finds another file in its place says so.
+to the last bit as those of one machine, but for ``radiance``, whatever becomes of workers meanwhile: an answer depends on its rays and on
+the tree alone, and Dask does a task again that was lost. A file is known by the hash of its content, so that a
+worker that finds another in its place says so; of a mesh file, materials and textures in other files are not looked at.
 
 All workers must see the tree's file, and those of rays, under the paths that are given. Each task runs on as many
 threads as Dask gives it: one.
@@ -25,6 +25,7 @@ from typing import Any, Callable, Union
 
 import dask.array as da
 import numpy as np
+from dask.base import tokenize
 from numpy.typing import DTypeLike, NDArray
 
 from . import _kdray
@@ -100,6 +101,7 @@ def all_hits(tree: TreeFile, rays: Any, *, per_task: int = PER_TASK, **options: 
     blocks = _blocks("rays", rays, 6, per_task)
     if blocks.ndim != 2:
         raise ArgumentError(f"rays: give an array of shape (n, 6), not {blocks.shape}")
+    _check_numbers(options)
     records = np.dtype([("ray_id", np.int64), *_hit_records(blocks.dtype).descr])
     firsts = np.cumsum([0, *blocks.chunks[0][:-1]])
     first = da.from_array(firsts[:, np.newaxis], chunks=(1, 1))
@@ -208,6 +210,7 @@ def _asked(
     tree: TreeFile, query: str, blocks: da.Array, dtype: DTypeLike, options: dict[str, Any]
 ) -> da.Array:
     """The answers to all blocks, lazily, of the shape of their vectors."""
+    _check_numbers(options)
     path, content_hash = _known(tree)
 
     def answers(block: NDArray[Any]) -> NDArray[Any]:
@@ -220,6 +223,13 @@ def _asked(
     last = blocks.ndim - 1
     found: da.Array = da.map_blocks(answers, blocks, dtype=dtype, drop_axis=last, meta=meta)
     return found
+
+
+def _check_numbers(options: dict[str, Any]) -> None:
+    """Arrays would be broadcast to each block, not to all of them."""
+    for name, value in options.items():
+        if np.ndim(value) != 0:
+            raise ArgumentError(f"{name}: give one number for all")
 
 
 def _known(file: TreeFile) -> tuple[str, str]:
@@ -305,5 +315,10 @@ def _rays_from_npy(path: str, per_task: int) -> da.Array:
         return rays
 
     meta = np.empty((0, 0), header.dtype)
-    rays: da.Array = da.map_blocks(part, chunks=(sizes, (6,)), dtype=header.dtype, meta=meta)
+    written = os.stat(path)
+    # Another file in its place is another array to Dask.
+    token = (path, written.st_mtime_ns, written.st_size, sizes)
+    rays: da.Array = da.map_blocks(
+        part, chunks=(sizes, (6,)), dtype=header.dtype, meta=meta, token=tokenize(token)
+    )
     return rays

@@ -34,8 +34,9 @@ Answers = dict[str, NDArray[Any]]
 class RaycastingScene:
     """What ``open3d.t.geometry.RaycastingScene`` is, with exact answers.
 
-    Methods, arguments, names and shapes are Open3D's; arrays are numpy's. What differs:
+    Methods, arguments, names, shapes and whole numbers are Open3D's. What differs:
 
+    - Answers are numpy's arrays: leave out ``.numpy()``.
     - f64 is taken as well, and answered by f64; f32 gives f32.
     - Hits are exact, and those of ``list_intersections`` come by rising ``t_hit``.
     - Inside and outside are exact for watertight meshes, and told by the winding number for others, so that
@@ -56,10 +57,12 @@ class RaycastingScene:
         self._meshes: list[tuple[FloatArray, NDArray[Any]]] = []
         self._scene: Optional[Scene] = None
 
-    def add_triangles(self, vertex_positions: Any, triangle_indices: Any = None) -> int:
+    def add_triangles(
+        self, vertex_positions: Any = None, triangle_indices: Any = None, *, mesh: Any = None
+    ) -> int:
         """Adds vertices (n, 3) and triangles (m, 3), or an Open3D or trimesh mesh alone. Returns its id."""
         if triangle_indices is None:
-            vertex_positions, triangle_indices = triangles_of(vertex_positions)
+            vertex_positions, triangle_indices = triangles_of(vertex_positions if mesh is None else mesh)
         positions = np.array(vectors("vertex_positions", _numpy(vertex_positions)))
         indices = np.array(_numpy(triangle_indices))
         # It says what is wrong with them, now.
@@ -96,12 +99,13 @@ class RaycastingScene:
         Those of ray ``i`` are at ``ray_splits[i]:ray_splits[i + 1]``; ``ray_ids`` says the same hit by hit.
         """
         hits = self._built().all_hits(_rays(rays), invalid="miss", threads=_threads(nthreads))
-        return {"ray_splits": hits.offsets, "ray_ids": hits.ray_id, **_of_hits(hits)}
+        places = {"ray_splits": _whole(hits.offsets), "ray_ids": _whole(hits.ray_id)}
+        return {**places, **_of_hits(hits)}
 
     def compute_closest_points(self, query_points: Any, nthreads: int = 0) -> Answers:
         """The nearest points of the triangles to points (..., 3): ``points`` (..., 3), and where they lie."""
         points = vectors("query_points", _numpy(query_points))
-        found = self._built().closest_point(points, threads=_threads(nthreads))
+        found = self._built().closest_point(points, invalid="miss", threads=_threads(nthreads))
         return {
             "points": found.point,
             "geometry_ids": found.geometry_id.astype(np.uint32),
@@ -113,7 +117,7 @@ class RaycastingScene:
     def compute_distance(self, query_points: Any, nthreads: int = 0) -> FloatArray:
         """How far points (..., 3) are from the nearest triangle; infinite if there is none."""
         points = vectors("query_points", _numpy(query_points))
-        return self._built().closest_point(points, threads=_threads(nthreads)).distance
+        return self._built().closest_point(points, invalid="miss", threads=_threads(nthreads)).distance
 
     def compute_signed_distance(
         self, query_points: Any, nthreads: int = 0, nsamples: int = 1
@@ -121,7 +125,7 @@ class RaycastingScene:
         """The same, negative inside."""
         _check_samples(nsamples)
         points = vectors("query_points", _numpy(query_points))
-        return self._built().signed_distance(points, threads=_threads(nthreads))
+        return self._built().signed_distance(points, invalid="miss", threads=_threads(nthreads))
 
     def compute_occupancy(
         self, query_points: Any, nthreads: int = 0, nsamples: int = 1
@@ -129,17 +133,18 @@ class RaycastingScene:
         """1 for points (..., 3) inside, or on the surface, and 0 for others."""
         _check_samples(nsamples)
         points = vectors("query_points", _numpy(query_points))
-        inside = self._built().contains(points, threads=_threads(nthreads))
+        inside = self._built().contains(points, invalid="miss", threads=_threads(nthreads))
         occupancy: FloatArray = inside.astype(points.dtype)
         return occupancy
 
     @staticmethod
     def create_rays_pinhole(*args: Any, **kwargs: Any) -> NDArray[np.float32]:
-        """Rays (height_px, width_px, 6) through the middles of a pinhole camera's pixels, the upper row first.
+        """Rays (height_px, width_px, 6) through the middles of a pinhole camera's pixels, row by row.
 
         Either of ``intrinsic_matrix`` (3, 3), ``extrinsic_matrix`` (4, 4) from the world to the camera,
         ``width_px`` and ``height_px``: directions reach depth 1. Or of ``fov_deg``, the angle across, ``center``,
-        to which the camera looks, ``eye``, ``up``, ``width_px`` and ``height_px``.
+        to which the camera looks, ``eye``, ``up``, ``width_px`` and ``height_px``: as Open3D has it, that picture is
+        turned by 180 degrees, and ``rays[::-1, ::-1]`` stands upright.
         """
         if "fov_deg" in kwargs or args and np.ndim(_numpy(args[0])) == 0:
             return rays_of_field_of_view(*args, **kwargs)
@@ -163,6 +168,12 @@ def _of_hits(hits: Hits) -> Answers:
         "primitive_ids": hits.primitive_id.astype(np.uint32),
         "primitive_uvs": np.stack([hits.u, hits.v], axis=-1),
     }
+
+
+def _whole(numbers: NDArray[np.int64]) -> NDArray[Any]:
+    """As Open3D has them, of 32 bits, unless that is too few."""
+    is_small = numbers.max(initial=0) <= np.iinfo(np.uint32).max
+    return numbers.astype(np.uint32) if is_small else numbers
 
 
 def _rays(rays: Any) -> FloatArray:

@@ -32,9 +32,10 @@ Locations = NDArray[np.float64]
 
 
 class RayMeshIntersector:
-    """What ``trimesh.ray.ray_pyembree.RayMeshIntersector`` is, and ``ray_triangle``'s, with exact answers.
+    """What ``trimesh.ray.ray_pyembree.RayMeshIntersector`` is, with exact answers.
 
-    Methods, arguments and shapes are theirs. What differs:
+    Methods, arguments and shapes are its own; those of ``ray_triangle`` are the same but for the place of some
+    arguments. What differs:
 
     - Hits are decided on the mesh's own f64 vertices. No ray slips through an edge or a vertex; where a ray
       meets an edge, it crosses one of the two faces, and is counted once.
@@ -122,7 +123,7 @@ class RayMeshIntersector:
 
     def contains_points(self, points: ArrayLike) -> NDArray[np.bool_]:
         """Whether each of the points (n, 3) is inside the mesh, or on its surface."""
-        return self.scene.contains(_rows("points", points))
+        return self.scene.contains(_rows("points", points), invalid="miss")
 
     def _rays(self, ray_origins: ArrayLike, ray_directions: ArrayLike) -> dict[str, Any]:
         """The rays in f64, which is what trimesh answers in, as arguments of queries."""

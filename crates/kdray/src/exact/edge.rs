@@ -56,8 +56,11 @@ fn add_triple_product(sum: &mut Accumulator, a: [f64; 3], b: [f64; 3], c: [f64; 
 }
 
 /// The sign of the edge function of (p, q) for the moved ray (see [`crate::exact`]); `Equal` only if the edge
-/// lies on the line of the ray. `sign` is that of the edge function for the ray as it is.
+/// is parallel to the ray, or has no length. `sign` is that of the edge function for the ray as it is.
 pub fn moved_edge_sign(ray: &Ray<3>, p: [f64; 3], q: [f64; 3], sign: Ordering) -> Ordering {
+    if sign != Ordering::Equal {
+        return sign;
+    }
     let in_integers = on_lattice(ray.direction).zip(around_origin(ray.origin, p, q));
     // Component i of (q − p) x d, with j and k behind it in cyclic order.
     let component = |i: usize| {
@@ -70,7 +73,7 @@ pub fn moved_edge_sign(ray: &Ray<3>, p: [f64; 3], q: [f64; 3], sign: Ordering) -
             None => crossed_component(ray.direction, p, q, (j, k)).sign(),
         }
     };
-    sign.then_with(|| component(0)).then_with(|| component(1)).then_with(|| component(2))
+    component(0).then_with(|| component(1)).then_with(|| component(2))
 }
 
 /// (q_j − p_j) d_k − (q_k − p_k) d_j.
@@ -147,8 +150,10 @@ mod tests {
             assert_ne!(sign, equal);
             assert_eq!(moved_edge_sign(&RAY, q, p, equal), sign.reverse());
         }
-        let on_the_ray = ([0.0, 0.0, 1.0], [0.0, 0.0, 4.0]);
-        assert_eq!(moved_edge_sign(&RAY, on_the_ray.0, on_the_ray.1, equal), equal);
+        for x in [0.0, 1.0] {
+            let (p, q) = ([x, 0.0, 1.0], [x, 0.0, 4.0]);
+            assert_eq!(moved_edge_sign(&RAY, p, q, equal), equal);
+        }
     }
 
     #[test]

@@ -15,9 +15,9 @@
 //! Crossings are counted for the ray as moved aside by an infinitesimal s = (ε, ε², ε³). Its edge functions
 //! differ by s · ((q − p) x d), so if one is zero its sign is that of the first component of (q − p) x d that
 //! is not. All triangles see the same moved ray, so neighbours agree on their common edge, and each crossing
-//! of a closed surface counts once, wherever on its line the ray begins: at a vertex, too. Only an edge on the
-//! line of the ray is neither left nor right of it, and its triangles are not crossed, for the moved ray is
-//! parallel to them. This is Edelsbrunner and Mücke's simulation of simplicity (1990), applied to the ray.
+//! of a closed surface counts once, wherever on its line the ray begins: at a vertex, too. Only an edge parallel
+//! to the ray is neither left nor right of it; where its edge function is zero the ray runs in the plane of its
+//! triangles, and they are not crossed, for the moved ray is parallel to them. This is Edelsbrunner and Mücke's simulation of simplicity (1990), applied to the ray.
 
 mod accumulator;
 mod edge;

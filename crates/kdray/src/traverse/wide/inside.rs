@@ -14,7 +14,9 @@ use fearless_simd::prelude::*;
 /// Whether a closed mesh holds the ray's origin: inside, by the parity of crossings, or on its surface.
 ///
 /// A triangle that holds the origin is met at t = 0, so that it is a candidate, and never a sure one: its T is
-/// zero, also if the ray runs in its plane. So only doubtful lanes are asked for the surface.
+/// zero, also if the ray runs in its plane. So only doubtful lanes are asked for the surface. That holds for rays
+/// from t = 0 on whose origin is within the tree's reach, as those of `Scene::way_out` are: of an origin that is
+/// moved along the ray, T is not zero.
 pub(crate) struct Inside<'a, T: 'static> {
     count: Count<'a, T>,
     origin: [f64; 3],
