@@ -82,8 +82,8 @@ def test_inside_and_outside(ball):
 def test_points_that_are_none_are_nowhere(ball):
     nowhere = np.float32([[np.nan, 0, 0]])
     assert ball.compute_occupancy(nowhere).tolist() == [0]
-    assert np.isnan(ball.compute_distance(nowhere)).all()
-    assert np.isnan(ball.compute_signed_distance(nowhere)).all()
+    assert not np.isfinite(ball.compute_distance(nowhere)).any()
+    assert not np.isfinite(ball.compute_signed_distance(nowhere)).any()
 
 
 def test_answers_are_those_of_a_scene(ball):
