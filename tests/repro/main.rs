@@ -1,8 +1,10 @@
 //! One file for each bug that was fixed, named for what it was.
 
+mod areas_that_vanish;
 mod crossings_where_rays_begin;
 mod hits_of_dead_rays;
 mod lanes_behind_the_last_ray;
+mod needles_in_tree_files;
 mod order_of_waiting_nodes;
 mod overflow_in_the_filter;
 mod rounded_way_to_a_target;

@@ -182,9 +182,14 @@ pub(crate) fn not_vanished(quotient: f64) -> f64 {
     if quotient == 0.0 { f64::from_bits(1).copysign(quotient) } else { quotient }
 }
 
-/// 2^exponent, clamped to what an f64 holds.
+/// 2^exponent, clamped to what an f64 holds. By its bits, since `powi` promises no precision.
 fn power_of_two(exponent: i32) -> f64 {
-    2.0_f64.powi(exponent.clamp(-1074, 1024))
+    let exponent = exponent.clamp(-1074, 1024);
+    f64::from_bits(match exponent {
+        ..-1022 => 1 << (exponent + 1074),
+        // Infinity from 1024 on.
+        _ => ((exponent + 1023) as u64) << 52,
+    })
 }
 
 /// A finite f64 as ±mantissa · 2^exponent.
@@ -227,6 +232,17 @@ mod tests {
 
     fn as_f64(sum: &Accumulator) -> f64 {
         sum.value().divided_by(self::sum(&[[1.0, 1.0, 1.0]]).value())
+    }
+
+    #[test]
+    fn powers_of_two_are_exact() {
+        let double = |n: i32| (0..n).fold(1.0, |x: f64, _| 2.0 * x);
+        let halve = |n: i32| (0..n).fold(1.0, |x: f64, _| 0.5 * x);
+        for n in [0, 1, 60, 1021, 1022, 1023] {
+            assert_eq!((power_of_two(n), power_of_two(-n)), (double(n), halve(n)), "{n}");
+        }
+        assert_eq!((power_of_two(-1074), power_of_two(-9999)), (halve(1074), halve(1074)));
+        assert_eq!((power_of_two(1024), power_of_two(9999)), (f64::INFINITY, f64::INFINITY));
     }
 
     #[test]

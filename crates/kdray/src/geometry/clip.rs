@@ -41,15 +41,45 @@ pub(crate) fn clipped_bounds_of<T: Coordinate, const K: usize>(
     error: f64,
     cell: &Aabb<K>,
 ) -> Option<Aabb<K>> {
+    let pad = pad(&bounds_of(polygon, error), cell, error);
+    bounds_within((polygon, error), cell, Faces { outward: pad, error: pad })
+}
+
+/// A box that each box around the same part holds, up to the last place of a coordinate, whatever cuts and
+/// paddings it comes from. Of what the cell's faces cut off, a little more is left out: what reaches less than 2^-39
+/// of the largest coordinate into the cell, and twice the error.
+pub(crate) fn inner_bounds_of<T: Coordinate, const K: usize>(
+    polygon: &[[T; K]],
+    error: f64,
+    cell: &Aabb<K>,
+) -> Option<Aabb<K>> {
+    let pad = pad(&bounds_of(polygon, error), cell, error);
+    bounds_within((polygon, error), cell, Faces { outward: -pad, error })
+}
+
+/// The faces of a cell as they cut.
+#[derive(Clone, Copy)]
+struct Faces {
+    /// How far outside of the cell they are.
+    outward: f64,
+    /// By how much what they cut is off.
+    error: f64,
+}
+
+/// The box of what `faces` leave of a polygon, within the cell.
+fn bounds_within<T: Coordinate, const K: usize>(
+    (polygon, error): (&[[T; K]], f64),
+    cell: &Aabb<K>,
+    faces: Faces,
+) -> Option<Aabb<K>> {
     assert!(polygon.len() + 2 * K <= MOST_VERTICES, "a polygon of {} vertices", polygon.len());
     let whole = bounds_of(polygon, error);
     let limit = whole.intersection(cell);
     if limit.is_empty() || limit == whole {
         return (!limit.is_empty()).then_some(limit);
     }
-    let pad = pad(&whole, cell, error);
     let mut buffers: [Polygon<K>; 2] = [Polygon::new(), Polygon::new()];
-    let part = clipped((polygon, error), &whole, cell, pad, &mut buffers);
+    let part = clipped((polygon, error), &whole, cell, faces, &mut buffers);
     let bounds = part.iter().fold(Aabb::EMPTY, |bounds, v| bounds.union(&outward(v)));
     let bounds = bounds.intersection(&limit);
     (!bounds.is_empty()).then_some(bounds)
@@ -94,7 +124,8 @@ pub(crate) fn split_bounds_of<T: Coordinate, const K: usize>(
         split_whole(polygon, axis, position, pad)
     } else {
         let mut buffers: [Polygon<K>; 2] = [Polygon::new(), Polygon::new()];
-        let part = clipped((polygon, error), &whole, cell, pad, &mut buffers);
+        let faces = Faces { outward: pad, error: pad };
+        let part = clipped((polygon, error), &whole, cell, faces, &mut buffers);
         split_part(part, axis, position, pad)
     };
     let (below, above) = cell.split(axis, position);
@@ -197,12 +228,12 @@ impl<const K: usize> Extent<K> {
     }
 }
 
-/// The part of `polygon`, which `whole` bounds, that lies in `cell`, up to the pad.
+/// The part of `polygon`, which `whole` bounds, that `faces` of `cell` leave.
 fn clipped<'a, T: Coordinate, const K: usize>(
     (polygon, error): (&[[T; K]], f64),
     whole: &Aabb<K>,
     cell: &Aabb<K>,
-    pad: f64,
+    faces: Faces,
     buffers: &'a mut [Polygon<K>; 2],
 ) -> &'a Polygon<K> {
     // Each cut reads one of the buffers and writes the other.
@@ -210,13 +241,13 @@ fn clipped<'a, T: Coordinate, const K: usize>(
     part.extend(polygon.iter().map(|&p| Vertex { position: p.map(T::to_f64), error }));
     for axis in 0..K {
         if whole.min[axis] < cell.min[axis] {
-            let plane = f64::from(cell.min[axis]) - pad;
-            cut(part, next, &Cut { axis, plane, side: 1.0 }, pad);
+            let plane = f64::from(cell.min[axis]) - faces.outward;
+            cut(part, next, &Cut { axis, plane, side: 1.0 }, faces.error);
             std::mem::swap(&mut part, &mut next);
         }
         if whole.max[axis] > cell.max[axis] {
-            let plane = f64::from(cell.max[axis]) + pad;
-            cut(part, next, &Cut { axis, plane, side: -1.0 }, pad);
+            let plane = f64::from(cell.max[axis]) + faces.outward;
+            cut(part, next, &Cut { axis, plane, side: -1.0 }, faces.error);
             std::mem::swap(&mut part, &mut next);
         }
     }

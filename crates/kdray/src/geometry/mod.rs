@@ -18,7 +18,7 @@ pub use aabb::Aabb;
 pub use bounding_sphere::BoundingSphere;
 pub use bounding_volume::BoundingVolume;
 pub(crate) use chord::{Chord, chord};
-pub(crate) use clip::{bounds_of, clipped_bounds_of, split_bounds_of};
+pub(crate) use clip::{bounds_of, clipped_bounds_of, inner_bounds_of, split_bounds_of};
 pub use clip::{clipped_bounds, split_bounds};
 pub use coordinate::Coordinate;
 pub use interval::Interval;

@@ -82,8 +82,9 @@ impl TriangleBlock {
 /// The corner that lies opposite the longest edge.
 fn opposite_longest_edge([a, b, c]: &[[f32; 3]; 3]) -> usize {
     let length = |p: &[f32; 3], q: &[f32; 3]| {
-        let squared = |k: usize| (f64::from(p[k]) - f64::from(q[k])).powi(2);
-        squared(0) + squared(1) + squared(2)
+        // Not by `powi`, which promises no precision: the same mesh gives the same blocks.
+        let along = |k: usize| f64::from(p[k]) - f64::from(q[k]);
+        along(0) * along(0) + along(1) * along(1) + along(2) * along(2)
     };
     let opposite = [length(b, c), length(c, a), length(a, b)];
     (1..3).fold(0, |most, i| if opposite[i] > opposite[most] { i } else { most })

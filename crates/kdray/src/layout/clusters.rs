@@ -124,9 +124,7 @@ fn cluster<T: Coordinate>(
     pieces: &[Piece],
     (first, last): (usize, usize),
 ) -> Cluster {
-    let area: f64 = pieces.iter().map(|piece| piece.normal.length()).sum();
-    let weighted: DVec3 = pieces.iter().map(|piece| piece.normal.length() * piece.middle).sum();
-    let center = weighted / area;
+    let center = middle_of(pieces);
     let (mut moments, mut radius) = (Moments::default(), 0.0_f64);
     for piece in pieces {
         let offsets = corners(mesh, piece.id).map(|p| p - center);
@@ -134,6 +132,16 @@ fn cluster<T: Coordinate>(
         radius = offsets.iter().fold(radius, |most, offset| most.max(offset.length()));
     }
     Cluster { center, radius, moments, first: first as u32, last: last as u32, next: 0 }
+}
+
+/// The middle of the surface; where the triangles are so small that their areas vanish, that of their middles.
+fn middle_of(pieces: &[Piece]) -> DVec3 {
+    let area: f64 = pieces.iter().map(|piece| piece.normal.length()).sum();
+    if area > 0.0 {
+        let weighted = pieces.iter().map(|piece| piece.normal.length() * piece.middle);
+        return weighted.sum::<DVec3>() / area;
+    }
+    pieces.iter().map(|piece| piece.middle).sum::<DVec3>() / pieces.len() as f64
 }
 
 fn longest_axis(pieces: &[Piece]) -> usize {

@@ -14,13 +14,14 @@ use super::wide::{FULL_MARGIN, margin};
 use super::{Link, TriangleBlock, WideError, WideNode, WideTree};
 use crate::build::parallel::map_all;
 use crate::geometry::{Aabb, Coordinate};
-use crate::primitives::{Primitives, TriangleMesh};
+use crate::primitives::TriangleMesh;
 use crate::tree::{KdTree, NodeKind};
 use bytemuck::bytes_of;
 
 /// By how much, in units of u R, boxes must be larger than what is in them: the error of the slab test
 /// (`docs/decisions/0008`). They are made two units larger, because the same part of a triangle clipped
-/// once more may come out larger by the last place of a coordinate.
+/// once more may come out larger by the last place of a coordinate. More than that, where a triangle is cut at a
+/// sharp angle, `inner_bounds` sees to.
 const LEAST_MARGIN: f32 = 10.0;
 
 /// How many levels of wide nodes are verified on several threads: enough for some hundred parts.
@@ -147,7 +148,7 @@ impl<T: Coordinate> Verifier<'_, T> {
             }
         }
         let least = margin(LEAST_MARGIN, self.wide.reach);
-        let fits = |&id: &u32| match self.mesh.clipped_bounds(id, &stand.cell) {
+        let fits = |&id: &u32| match self.mesh.inner_bounds(id, &stand.cell) {
             Some(part) => holds(&stand.bounds, &part, least),
             None => true,
         };

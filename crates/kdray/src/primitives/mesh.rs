@@ -2,7 +2,8 @@
 
 use super::{Hit, HitRule, Intersect, Primitives, intersect_triangle};
 use crate::geometry::{
-    Aabb, Coordinate, Ray, TreeSpace, bounds_of, clipped_bounds_of, split_bounds_of,
+    Aabb, Coordinate, Ray, TreeSpace, bounds_of, clipped_bounds_of, inner_bounds_of,
+    split_bounds_of,
 };
 use crate::memory::Store;
 use thiserror::Error;
@@ -144,6 +145,11 @@ impl<T: Coordinate> TriangleMesh<T> {
             return corners;
         }
         corners.map(|p| self.space.point(p.map(T::to_f64)).map(T::from_f64))
+    }
+
+    /// What every box around the part of a triangle in a cell of the tree holds: see [`inner_bounds_of`].
+    pub(crate) fn inner_bounds(&self, id: u32, cell: &Aabb<3>) -> Option<Aabb<3>> {
+        inner_bounds_of(&self.tree_corners(id), T::TREE_ERROR, cell)
     }
 
     /// The same, rounded to f32.
