@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use std::sync::LazyLock;
 
 /// How many rays of each kind are aimed at each case.
-const EACH: usize = 8;
+const EACH: usize = 6;
 
 /// Primitives and rays, with all answers.
 pub(crate) struct Case<S, const K: usize> {
