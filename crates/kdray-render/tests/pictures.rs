@@ -86,7 +86,8 @@ fn opaque_things_cast_the_same_shadows_whether_or_not_glass_is_elsewhere() {
         let (_, camera, lights) = still_life();
         shoot(&world(model), &camera, &lights, &options)
     };
-    assert!(picture(true) == picture(false));
+    // They are of different scenes, as their parts say.
+    assert!(picture(true).layers == picture(false).layers);
 }
 
 #[test]
