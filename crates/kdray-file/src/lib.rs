@@ -13,7 +13,7 @@
 //!
 //! ```
 //! # use kdray::{BuildOptions, Ray, Scene, TriangleMesh};
-//! # let corners = vec![[0.0, 0.0, 2.0], [1.0, 0.0, 2.0], [0.0, 1.0, 2.0]];
+//! # let corners = vec![[0.0_f32, 0.0, 2.0], [1.0, 0.0, 2.0], [0.0, 1.0, 2.0]];
 //! # let scene = Scene::build(TriangleMesh::new(corners, vec![[0, 1, 2]])?, &BuildOptions::default())?;
 //! # let folder = tempfile::tempdir()?;
 //! # let path = folder.path().join("scene.kdray");

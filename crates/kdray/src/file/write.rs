@@ -21,7 +21,7 @@ impl<T: Precision> Scene<T> {
     /// ```
     /// # use kdray::{BuildOptions, Ray, Scene, TriangleMesh, memory::AlignedBytes};
     /// # use std::sync::Arc;
-    /// # let corners = vec![[0.0, 0.0, 2.0], [1.0, 0.0, 2.0], [0.0, 1.0, 2.0]];
+    /// # let corners = vec![[0.0_f32, 0.0, 2.0], [1.0, 0.0, 2.0], [0.0, 1.0, 2.0]];
     /// # let scene = Scene::build(TriangleMesh::new(corners, vec![[0, 1, 2]])?, &Default::default())?;
     /// let mut file = Vec::new();
     /// let kept = scene.save(|bytes| {
