@@ -10,11 +10,14 @@ use std::path::Path;
 use std::process::Stdio;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// How many bytes a target's corpus may have; beyond, the largest inputs are left out.
+/// How many inputs a target's corpus may have.
+const MOST_INPUTS: usize = 64;
+
+/// How many bytes it may have.
 const MOST_BYTES: u64 = 40_000;
 
-/// Makes a target's corpus anew: as few of all inputs as cover what all cover. The old one is replaced when the
-/// new one is whole.
+/// Makes a target's corpus anew: as few of all inputs as cover what all cover, or as many of these as there is room
+/// for. The old one is replaced when the new one is whole.
 pub(super) fn keep(folders: &Folders, target: &Target, stop: &AtomicBool) -> Result<(), String> {
     let name = &target.name;
     let (kept, old) = (folders.work("kept").join(name), folders.work("old").join(name));
@@ -52,7 +55,8 @@ fn remove(folder: &Path) -> io::Result<()> {
     if folder.exists() { fs::remove_dir_all(folder) } else { Ok(()) }
 }
 
-/// Leaves out the largest inputs, until few enough bytes are left; these are counted.
+/// Leaves inputs out until few enough are left: one in so many of all sizes, then the largest. Their bytes are
+/// counted.
 fn cut(folder: &Path) -> io::Result<u64> {
     let mut files = Vec::new();
     for entry in fs::read_dir(folder)? {
@@ -60,12 +64,13 @@ fn cut(folder: &Path) -> io::Result<u64> {
         files.push((entry.metadata()?.len(), entry.path()));
     }
     files.sort();
+    let step = files.len().div_ceil(MOST_INPUTS).max(1);
     let mut sum = 0;
-    for (bytes, path) in files {
-        if sum + bytes > MOST_BYTES {
-            fs::remove_file(path)?;
-        } else {
+    for (index, (bytes, path)) in files.into_iter().enumerate() {
+        if index.is_multiple_of(step) && sum + bytes <= MOST_BYTES {
             sum += bytes;
+        } else {
+            fs::remove_file(path)?;
         }
     }
     Ok(sum)
