@@ -51,6 +51,8 @@ pub enum Said {
     Any(Vec<bool>),
     /// All hits by a rule.
     All(HitRule, Vec<Vec<Hit>>),
+    /// How many hits there are.
+    Count(Vec<usize>),
 }
 
 impl Answers {
@@ -101,6 +103,7 @@ fn one_by_one<T: Precision>(scene: &Scene<T>, rays: &[Ray], add: &mut impl FnMut
         hits
     };
     add("single, all hits", Said::All(HitRule::Crossing, rays.iter().map(all).collect()));
+    add("single, count", Said::Count(rays.iter().map(|ray| scene.count(ray)).collect()));
     let hinted: Vec<_> = rays.iter().map(|ray| scene.closest_hit_with_hint(ray)).collect();
     let closest = hinted.iter().map(|found| found.map(|(hit, _)| hit)).collect();
     add("single, closest hit with a hint", Said::Closest(closest));
@@ -123,6 +126,9 @@ fn in_batches<T: Precision>(scene: &Scene<T>, rays: &[Ray], add: &mut impl FnMut
     let mut all = vec![Vec::new(); rays.len()];
     scene.each_all_hits(rays, |index, hits| all[index] = hits.to_vec());
     add("batch, all hits", Said::All(HitRule::Crossing, all));
+    let mut counts = vec![0; rays.len()];
+    scene.counts(rays, &mut counts);
+    add("batch, count", Said::Count(counts));
 }
 
 fn in_packets<T: Precision>(scene: &Scene<T>, volley: &Volley, add: &mut impl FnMut(&str, Said)) {

@@ -8,11 +8,15 @@ use super::{Tally, points, saved};
 use crate::rays::random;
 use kdray::{Precision, Ray, Scene};
 
-/// How many rays there are to a point.
-const RAYS_PER_POINT: u64 = 32;
+/// How many rays there are to a point in the first volleys at a target, and to one in the others: points take
+/// several times as long.
+const RAYS_PER_POINT: [u64; 2] = [32, 256];
 
 /// How many volleys there are to one at copies.
-const VOLLEYS_PER_COPIED: u64 = 8;
+const VOLLEYS_PER_COPIED: [u64; 2] = [8, 32];
+
+/// How many volleys are the first.
+const FIRST: u64 = 128;
 
 /// Larger trees are not saved for every setting, and not damaged.
 const FEW: usize = 2000;
@@ -34,7 +38,8 @@ impl Attacked for f32 {
         let Visit { target, flat, scene, gunner, numbers, seed } = visit;
         let mut random = random(seed.wrapping_add(numbers.start).wrapping_mul(0x9e37_79b9));
         let volleys = numbers.end - numbers.start;
-        let count = volleys * super::volley::SIZE as u64 / RAYS_PER_POINT;
+        let stage = usize::from(numbers.start >= FIRST);
+        let count = volleys * super::volley::SIZE as u64 / RAYS_PER_POINT[stage];
         let points = points::attack(scene, target, flat, count, &mut random);
         let volley = gunner.volley(numbers.start, scene);
         let is_small = target.mesh.triangles().len() <= FEW;
@@ -44,7 +49,7 @@ impl Attacked for f32 {
             false => Tally::default(),
         };
         let copies = Copies::new(scene, flat, &mut random);
-        let every = |number: u64| number.div_ceil(VOLLEYS_PER_COPIED);
+        let every = |number: u64| number.div_ceil(VOLLEYS_PER_COPIED[stage]);
         let shots = every(numbers.end) - every(numbers.start);
         let copied = copies.map(|copies| copies.attack(shots, &mut random)).unwrap_or_default();
         [saved, damaged, copied].into_iter().fold(points, Tally::and)

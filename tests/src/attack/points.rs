@@ -113,12 +113,28 @@ pub fn attack(
 ) -> Tally {
     let mut tally = Tally::default();
     let truth = PointTruth::new(target, flat);
+    let (mut points, mut alone) = (Vec::new(), Vec::new());
     for _ in 0..count {
         let question = Question::new(target, random);
         let said = Said::by(scene, target, &question);
         judge(&mut tally, target, &truth, &question, &said);
+        points.push(question.point);
+        alone.push(said.inside);
     }
+    compare_batch(&mut tally, scene, &points, &alone);
     tally
+}
+
+/// What is said of each of many points is what is said of it alone.
+fn compare_batch(tally: &mut Tally, scene: &Scene, points: &[[f64; 3]], alone: &[bool]) {
+    let mut inside = vec![false; points.len()];
+    scene.contains_each(points, &mut inside);
+    for (point, (inside, alone)) in points.iter().zip(inside.iter().zip(alone)) {
+        if inside != alone {
+            tally.misjudged += 1;
+            tally.tell(point, || format!("in a batch {inside}, alone {alone}"));
+        }
+    }
 }
 
 /// Counts what is wrong of the answers to a question.

@@ -198,6 +198,7 @@ fn compare(tally: &mut Tally, volley: &Volley, walked: &[Walked], name: &str, sa
             Said::Any(found) => found[index] == walked.closest.is_some(),
             Said::All(HitRule::Touching, hits) => same(&hits[index], &walked.touched),
             Said::All(HitRule::Crossing, hits) => same(&hits[index], &walked.crossed),
+            Said::Count(counts) => counts[index] == walked.count,
         };
         if !same {
             tally.differing += 1;
@@ -210,6 +211,9 @@ fn compare(tally: &mut Tally, volley: &Volley, walked: &[Walked], name: &str, sa
                 }
                 Said::All(_, hits) => {
                     format!("{name}: {:?}, but the leaf walk {walked:?}", hits[index])
+                }
+                Said::Count(counts) => {
+                    format!("{name}: {}, but the leaf walk {}", counts[index], walked.count)
                 }
             });
         }

@@ -5,22 +5,28 @@ use std::ops::Range;
 
 /// Limbs of 64 bits. The products of three f64 span 2^-3222 to 2^3072; what is left above holds
 /// the carries of more terms than anyone adds.
-const LIMBS: usize = 100;
+const ALL_LIMBS: usize = 100;
 
-/// The power of two that the lowest bit stands for: three times that of the smallest f64.
+/// Three times the power of two of the smallest f64.
 const LOWEST: i32 = -3222;
 
-/// A fixed-point number, wide enough for every sum of products of up to three finite f64 numbers.
+/// A fixed-point number, wide enough for every sum of products of up to three finite f64 numbers; with fewer limbs,
+/// for those of integers.
 ///
 /// What is added and what is subtracted are summed apart, so that no borrow runs through all limbs whenever
 /// the sum changes its sign. Only the limbs that a term has reached are looked at.
 #[derive(Clone)]
-pub struct Accumulator {
+pub struct Accumulator<const LIMBS: usize = ALL_LIMBS> {
     added: [u64; LIMBS],
     subtracted: [u64; LIMBS],
     /// All other limbs are zero.
     used: Range<usize>,
+    /// The power of two that the lowest bit stands for.
+    lowest: i32,
 }
+
+/// Wide enough for a dozen products of three integers below 2^120.
+pub(super) type ShortAccumulator = Accumulator<6>;
 
 /// A number `mantissa · 2^exponent` whose exponent may be beyond that of an f64.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,7 +39,7 @@ pub struct Scaled {
 
 impl Default for Accumulator {
     fn default() -> Self {
-        Self { added: [0; LIMBS], subtracted: [0; LIMBS], used: 0..0 }
+        Self::of_units(LOWEST)
     }
 }
 
@@ -56,23 +62,6 @@ impl Accumulator {
         self.add([-a, b, c]);
     }
 
-    /// Adds another sum.
-    pub fn add_all(&mut self, other: &Self) {
-        self.add_limbs(&other.added, &other.subtracted, &other.used);
-    }
-
-    /// Subtracts another sum.
-    pub fn subtract_all(&mut self, other: &Self) {
-        self.add_limbs(&other.subtracted, &other.added, &other.used);
-    }
-
-    fn add_limbs(&mut self, added: &[u64; LIMBS], subtracted: &[u64; LIMBS], used: &Range<usize>) {
-        for (sum, parts) in [(&mut self.added, added), (&mut self.subtracted, subtracted)] {
-            let top = add_at(sum, used.start, parts.get(used.clone()).unwrap_or_default());
-            widen(&mut self.used, used.start..top);
-        }
-    }
-
     /// Adds or subtracts `number · 2^shift` units of the lowest bit.
     fn add_shifted(&mut self, number: [u64; 3], shift: usize, negative: bool) {
         let (limb, bits) = (shift / 64, shift % 64);
@@ -82,6 +71,42 @@ impl Accumulator {
         let sum = if negative { &mut self.subtracted } else { &mut self.added };
         let top = add_at(sum, limb, &shifted);
         widen(&mut self.used, limb..top);
+    }
+}
+
+impl ShortAccumulator {
+    /// Adds the product of three integers below 2^120 in size.
+    #[inline]
+    pub(super) fn add_integers(&mut self, [a, b, c]: [i128; 3]) {
+        let negative = (a < 0) ^ (b < 0) ^ (c < 0);
+        let [a, b, c] = [a, b, c].map(|x| limbs(x.unsigned_abs()));
+        let product: [u64; 6] = product(product::<2, 4>(a, b), c);
+        add_at(if negative { &mut self.subtracted } else { &mut self.added }, 0, &product);
+        self.used = 0..6;
+    }
+}
+
+impl<const LIMBS: usize> Accumulator<LIMBS> {
+    /// Zero, in units of that power of two.
+    pub(super) fn of_units(lowest: i32) -> Self {
+        Self { added: [0; LIMBS], subtracted: [0; LIMBS], used: 0..0, lowest }
+    }
+
+    /// Adds another sum, of the same units.
+    pub fn add_all(&mut self, other: &Self) {
+        self.add_limbs(&other.added, &other.subtracted, &other.used);
+    }
+
+    /// Subtracts another sum, of the same units.
+    pub fn subtract_all(&mut self, other: &Self) {
+        self.add_limbs(&other.subtracted, &other.added, &other.used);
+    }
+
+    fn add_limbs(&mut self, added: &[u64; LIMBS], subtracted: &[u64; LIMBS], used: &Range<usize>) {
+        for (sum, parts) in [(&mut self.added, added), (&mut self.subtracted, subtracted)] {
+            let top = add_at(sum, used.start, parts.get(used.clone()).unwrap_or_default());
+            widen(&mut self.used, used.start..top);
+        }
     }
 
     /// The sum's sign: how it compares with zero.
@@ -106,7 +131,7 @@ impl Accumulator {
         let below = self.used.start..top.saturating_sub(1).max(self.used.start);
         let sticky = magnitude[below].iter().any(|&limb| limb != 0);
         let mantissa = (head | u128::from(sticky)) as f64;
-        let exponent = 64 * (top as i32 - 1) - zeros as i32 + LOWEST;
+        let exponent = 64 * (top as i32 - 1) - zeros as i32 + self.lowest;
         Scaled { mantissa: if negative { -mantissa } else { mantissa }, exponent }
     }
 
@@ -139,7 +164,7 @@ fn widen(range: &mut Range<usize>, other: Range<usize>) {
 
 /// Adds limbs at a place; where the carry ended.
 #[inline]
-fn add_at(sum: &mut [u64; LIMBS], start: usize, parts: &[u64]) -> usize {
+fn add_at(sum: &mut [u64], start: usize, parts: &[u64]) -> usize {
     let (mut end, mut carry) = (start, false);
     for (place, part) in sum[start..].iter_mut().zip(parts) {
         let (once, first) = place.overflowing_add(*part);
@@ -193,14 +218,15 @@ fn power_of_two(exponent: i32) -> f64 {
 }
 
 /// A finite f64 as ±mantissa · 2^exponent.
-struct Decoded {
-    mantissa: u64,
-    exponent: i32,
-    negative: bool,
+pub(super) struct Decoded {
+    pub(super) mantissa: u64,
+    pub(super) exponent: i32,
+    pub(super) negative: bool,
 }
 
 impl Decoded {
-    fn of(x: f64) -> Self {
+    #[inline]
+    pub(super) fn of(x: f64) -> Self {
         debug_assert!(x.is_finite());
         let bits = x.to_bits();
         let biased = (bits >> 52 & 0x7ff) as i32;
@@ -209,6 +235,26 @@ impl Decoded {
             if biased == 0 { (fraction, -1074) } else { (fraction | 1 << 52, biased - 1075) };
         Self { mantissa, exponent, negative: bits >> 63 == 1 }
     }
+}
+
+fn limbs(x: u128) -> [u64; 2] {
+    [x as u64, (x >> 64) as u64]
+}
+
+/// The product of N limbs and two, which has M = N + 2.
+#[inline]
+fn product<const N: usize, const M: usize>(a: [u64; N], b: [u64; 2]) -> [u64; M] {
+    const { assert!(M == N + 2) };
+    let mut product = [0; M];
+    for (j, b) in b.into_iter().enumerate() {
+        let mut carry = 0;
+        for (i, a) in a.into_iter().enumerate() {
+            let sum = u128::from(a) * u128::from(b) + u128::from(product[i + j]) + carry;
+            (product[i + j], carry) = (sum as u64, sum >> 64);
+        }
+        product[N + j] = carry as u64;
+    }
+    product
 }
 
 fn multiply(a: u128, b: u64) -> [u64; 3] {
@@ -290,6 +336,22 @@ mod tests {
             }
             prop_assert_eq!(s.sign(), expected.cmp(&0));
             prop_assert_eq!(as_f64(&s), expected as f64);
+        }
+
+        #[test]
+        fn integers_sum_as_their_products_of_numbers_do(
+            terms in prop::collection::vec(prop::array::uniform3(-(1i64 << 53)..1 << 53), 0..12),
+            shifts in prop::array::uniform3(0..67_u32),
+        ) {
+            let mut short = ShortAccumulator::of_units(0);
+            let mut long = Accumulator::default();
+            for term in terms {
+                let term: [i128; 3] = std::array::from_fn(|k| i128::from(term[k]) << shifts[k]);
+                short.add_integers(term);
+                long.add(term.map(|x| x as f64));
+            }
+            prop_assert_eq!(short.sign(), long.sign());
+            prop_assert_eq!(short.value(), long.value());
         }
 
         #[test]

@@ -1,9 +1,17 @@
 //! Edge functions, exactly.
 
 use super::Accumulator;
-use super::lattice::{on_lattice, sign_of_products};
+use super::accumulator::ShortAccumulator;
+use super::lattice::{
+    cross_product, minus, on_lattice, on_long_lattice, sign_of_products, triple_product,
+};
 use crate::geometry::Ray;
 use std::cmp::Ordering;
+
+/// The edges of W, U and V: each runs opposite a, b and c.
+pub fn directed_edges<P: Copy>([a, b, c]: [P; 3]) -> [(P, P); 3] {
+    [(b, c), (c, a), (a, b)]
+}
 
 /// d · (q' x p') with p' = p − o: on which side of the edge (p, q) the line of the ray passes.
 pub fn edge_function(ray: &Ray<3>, p: [f64; 3], q: [f64; 3]) -> Accumulator {
@@ -25,7 +33,16 @@ pub fn edge_sign(ray: &Ray<3>, p: [f64; 3], q: [f64; 3]) -> Ordering {
         let pairs = [(d[0], minor(1, 2)), (d[1], minor(2, 0)), (d[2], minor(0, 1))];
         Some(sign_of_products(pairs))
     };
-    in_integers().unwrap_or_else(|| edge_function(ray, p, q).sign())
+    let in_long_integers = || Some(short_edge_function(ray, p, q)?.sign());
+    let sign = in_integers().or_else(in_long_integers);
+    sign.unwrap_or_else(|| edge_function(ray, p, q).sign())
+}
+
+/// [`edge_function`], unless sizes are too different or out of the ordinary.
+fn short_edge_function(ray: &Ray<3>, p: [f64; 3], q: [f64; 3]) -> Option<ShortAccumulator> {
+    let ([d], direction_unit) = on_long_lattice([ray.direction])?;
+    let ([o, p, q], unit) = on_long_lattice([ray.origin, p, q])?;
+    Some(triple_product(d, minus(q, o), minus(p, o), direction_unit + 2 * unit))
 }
 
 /// p' and q' in the same integer proportions; `None` if the numbers have too many digits.
@@ -46,6 +63,20 @@ pub fn volume(origin: [f64; 3], [a, b, c]: [[f64; 3]; 3]) -> Accumulator {
     sum
 }
 
+/// The sign of [`volume`].
+pub(super) fn volume_sign(origin: [f64; 3], corners: [[f64; 3]; 3]) -> Ordering {
+    match short_volume(origin, corners) {
+        Some(volume) => volume.sign(),
+        None => volume(origin, corners).sign(),
+    }
+}
+
+/// [`volume`], unless sizes are too different or out of the ordinary.
+pub(super) fn short_volume(origin: [f64; 3], [a, b, c]: [[f64; 3]; 3]) -> Option<ShortAccumulator> {
+    let ([o, a, b, c], unit) = on_long_lattice([origin, a, b, c])?;
+    Some(triple_product(minus(a, o), minus(c, o), minus(b, o), 3 * unit))
+}
+
 /// Adds a · (b x c).
 fn add_triple_product(sum: &mut Accumulator, a: [f64; 3], b: [f64; 3], c: [f64; 3]) {
     for (i, a) in a.into_iter().enumerate() {
@@ -61,19 +92,18 @@ pub fn moved_edge_sign(ray: &Ray<3>, p: [f64; 3], q: [f64; 3], sign: Ordering) -
     if sign != Ordering::Equal {
         return sign;
     }
-    let in_integers = on_lattice(ray.direction).zip(around_origin(ray.origin, p, q));
     // Component i of (q − p) x d, with j and k behind it in cyclic order.
-    let component = |i: usize| {
-        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        match &in_integers {
-            Some((d, [p, q])) => {
-                let d = d.map(i128::from);
-                ((q[j] - p[j]) * d[k]).cmp(&((q[k] - p[k]) * d[j]))
-            }
-            None => crossed_component(ray.direction, p, q, (j, k)).sign(),
+    match on_long_lattice([ray.direction]).zip(on_long_lattice([p, q])) {
+        Some((([d], _), ([p, q], _))) => {
+            first_sign(|plane| cross_product(minus(q, p), d, plane, 0).sign())
         }
-    };
-    component(0).then_with(|| component(1)).then_with(|| component(2))
+        None => first_sign(|plane| crossed_component(ray.direction, p, q, plane).sign()),
+    }
+}
+
+/// The sign of the first component that is not zero.
+fn first_sign(sign: impl Fn((usize, usize)) -> Ordering) -> Ordering {
+    sign((1, 2)).then_with(|| sign((2, 0))).then_with(|| sign((0, 1)))
 }
 
 /// (q_j − p_j) d_k − (q_k − p_k) d_j.
@@ -100,6 +130,14 @@ pub fn cross_component<const K: usize>(
         sum.subtract([p[j], q[i], 1.0]);
     }
     sum
+}
+
+/// The sign of [`cross_component`].
+pub(super) fn cross_sign(o: [f64; 3], a: [f64; 3], b: [f64; 3], plane: (usize, usize)) -> Ordering {
+    match on_long_lattice([o, a, b]) {
+        Some(([o, a, b], _)) => cross_product(minus(a, o), minus(b, o), plane, 0).sign(),
+        None => cross_component(o, a, b, plane).sign(),
+    }
 }
 
 /// In 2-D: d x p', on which side of the line of the ray the point p lies.
@@ -190,9 +228,18 @@ mod tests {
             let ray = Ray::new(o, d);
             let sign = edge_function(&ray, p, q).sign();
             proptest::prop_assert_eq!(edge_sign(&ray, p, q), sign);
-            let component = |plane| crossed_component(d, p, q, plane).sign();
-            let moved = component((1, 2)).then(component((2, 0))).then(component((0, 1)));
+            if let Some(short) = short_edge_function(&ray, p, q) {
+                proptest::prop_assert_eq!(short.value(), edge_function(&ray, p, q).value());
+            }
+            if let Some(short) = short_volume(o, [d, p, q]) {
+                proptest::prop_assert_eq!(short.value(), volume(o, [d, p, q]).value());
+            }
+            let moved = first_sign(|plane| crossed_component(d, p, q, plane).sign());
             proptest::prop_assert_eq!(moved_edge_sign(&ray, p, q, Ordering::Equal), moved);
+            for plane in [(0, 1), (2, 0)] {
+                let sign = cross_component(o, p, q, plane).sign();
+                proptest::prop_assert_eq!(cross_sign(o, p, q, plane), sign);
+            }
         }
     }
 

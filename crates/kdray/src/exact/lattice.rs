@@ -1,10 +1,14 @@
-//! Numbers of few digits, as integers: the short way to exact signs.
+//! Numbers as integers: the short way to exact signs and values.
 
+use super::accumulator::{Decoded, ShortAccumulator};
 use std::cmp::Ordering;
 
 /// As many bits as coordinates may have: their differences have one more, and what the differences of two products
 /// of these come to fits 124.
 const BITS: i32 = 60;
+
+/// As many as they may have on the long lattice, where their differences have one more.
+const LONG_BITS: i32 = 118;
 
 /// Far from overflow and underflow.
 const SIZES: std::ops::Range<f64> = 1e-200..1e200;
@@ -36,6 +40,76 @@ pub(super) fn on_lattice<const N: usize>(numbers: [f64; N]) -> Option<[i64; N]> 
         }
     }
     Some(integers)
+}
+
+/// Finite numbers as integers below 2^118, and the power of two of their unit; `None` if there is none.
+///
+/// There is one for f64 of all digits whose exponents are at most 65 apart.
+#[inline]
+pub(super) fn on_long_lattice<const N: usize>(
+    points: [[f64; 3]; N],
+) -> Option<([[i128; 3]; N], i32)> {
+    let largest = points.as_flattened().iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    let unit = (largest.to_bits() >> 52) as i32 - 1023 - (LONG_BITS - 1);
+    let mut integers = [[0; 3]; N];
+    for (integer, &x) in integers.as_flattened_mut().iter_mut().zip(points.as_flattened()) {
+        *integer = in_units(x, unit)?;
+    }
+    Some((integers, unit))
+}
+
+/// The number as a multiple of 2^unit, if it is one, of less than 127 bits.
+#[inline]
+fn in_units(x: f64, unit: i32) -> Option<i128> {
+    let Decoded { mantissa, exponent, negative } = Decoded::of(x);
+    let shift = exponent - unit;
+    let size = if shift >= 0 {
+        i128::from(mantissa) << shift
+    } else if mantissa == 0 {
+        0
+    } else if mantissa.trailing_zeros() >= shift.unsigned_abs() {
+        i128::from(mantissa >> -shift)
+    } else {
+        return None;
+    };
+    Some(if negative { -size } else { size })
+}
+
+/// a_i b_j − a_j b_i, of integers below 2^119 in size, in units of that power of two.
+#[inline]
+pub(super) fn cross_product<const K: usize>(
+    a: [i128; K],
+    b: [i128; K],
+    (i, j): (usize, usize),
+    unit: i32,
+) -> ShortAccumulator {
+    let mut sum = ShortAccumulator::of_units(unit);
+    sum.add_integers([a[i], b[j], 1]);
+    sum.add_integers([-a[j], b[i], 1]);
+    sum
+}
+
+/// The vector between two points.
+#[inline]
+pub(super) fn minus(a: [i128; 3], b: [i128; 3]) -> [i128; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+/// x · (y x z), of integers below 2^119 in size, in units of that power of two.
+#[inline]
+pub(super) fn triple_product(
+    x: [i128; 3],
+    y: [i128; 3],
+    z: [i128; 3],
+    unit: i32,
+) -> ShortAccumulator {
+    let mut sum = ShortAccumulator::of_units(unit);
+    for (i, x) in x.into_iter().enumerate() {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        sum.add_integers([x, y[j], z[k]]);
+        sum.add_integers([-x, y[k], z[j]]);
+    }
+    sum
 }
 
 /// The sign of the sum of products: of integers below 2^60 with others below 2^124. Of products in two parts, for
@@ -82,6 +156,26 @@ mod tests {
         assert_eq!(sign_of_products([(a, b), (a, b), (a, b)]), Ordering::Greater);
         // 2^60 · 1 against 1 · 2^60, of which each is in another part.
         assert_eq!(sign_of_products([(1, 1 << BITS), (1 << (BITS - 1), -2), (0, 0)]), equal);
+    }
+
+    #[test]
+    fn numbers_of_all_digits_are_long_integers() {
+        let third = 1.0 / 3.0;
+        let points = [[third, -1e-17 * third, 0.0], [-0.0, -0.5, 1e-18]];
+        let (integers, unit) = on_long_lattice(points).unwrap();
+        let scale = 2.0_f64.powi(unit);
+        assert_eq!(integers.map(|p| p.map(|x| x as f64 * scale)), points);
+        assert_eq!(on_long_lattice([[1.0, 1e-21 * third, 0.0]]), None);
+        let power = 2.0_f64.powi(-117);
+        assert_eq!(on_long_lattice([[1.0, power, 0.0]]), Some(([[1 << 117, 1, 0]], -117)));
+        assert_eq!(on_long_lattice([[1.0, 0.5 * power, 0.0]]), None);
+        for x in [0.0, f64::from_bits(3), -1e-310, f64::MIN_POSITIVE, 1e250, f64::MAX] {
+            let ([p], unit) = on_long_lattice([[x, 0.0, -x]]).unwrap();
+            let mut value = ShortAccumulator::of_units(unit);
+            value.add_integers([p[0], 1, 1]);
+            assert_eq!(value.value().divided_by(1.0.into()), x);
+            assert_eq!(p, [p[0], 0, -p[0]]);
+        }
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! Whether a point lies on a triangle.
 
-use super::{cross_component, side_of_plane};
+use super::edge::cross_sign;
+use super::side_of_plane;
 use std::cmp::Ordering;
 
 /// Whether `point` belongs to the closed triangle: lies in its interior, on an edge or in a corner.
@@ -28,7 +29,7 @@ fn is_in_box(point: [f64; 3], [a, b, c]: [[f64; 3]; 3]) -> bool {
 /// with the point: then the box decides.
 fn is_in_shadow(point: [f64; 3], [a, b, c]: [[f64; 3]; 3], plane: (usize, usize)) -> bool {
     let sides = [(a, b), (b, c), (c, a)];
-    let signs = sides.map(|(p, q)| cross_component(point, p, q, plane).sign());
+    let signs = sides.map(|(p, q)| cross_sign(point, p, q, plane));
     !(signs.contains(&Ordering::Less) && signs.contains(&Ordering::Greater))
 }
 

@@ -1,6 +1,6 @@
 //! On which side of a plane a point lies.
 
-use super::volume;
+use super::edge::volume_sign;
 use std::cmp::Ordering;
 
 /// A bound for the error of the volume below, in units of the sum of its terms' absolute values:
@@ -27,12 +27,13 @@ pub fn side_of_plane(point: [f64; 3], corners: [[f64; 3]; 3]) -> Ordering {
     if sum.abs() > error && error < f64::INFINITY {
         return sum.total_cmp(&0.0);
     }
-    volume(point, corners).sign()
+    volume_sign(point, corners)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::exact::volume;
     use proptest::prelude::*;
 
     const CORNERS: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];

@@ -1,7 +1,7 @@
 //! The ray–triangle test: a filter in f64, and exact arithmetic where the filter cannot tell.
 
 use super::{Hit, HitRule, Side};
-use crate::exact::{self, Scaled, edge_function, edge_sign, moved_edge_sign, not_vanished};
+use crate::exact::{directed_edges, edge_sign, hit_t, hit_values, moved_edge_sign, not_vanished};
 use crate::geometry::{Coordinate, Interval, Ray, t_above, t_below};
 use glam::{DVec3, Vec3Swizzles};
 use std::cmp::Ordering;
@@ -147,7 +147,7 @@ fn is_hit_exactly<T: Coordinate>(
     if !are_finite(corners) {
         return false;
     }
-    let edges = directed_edges(corners);
+    let edges = directed_edges(corners.map(|p| p.map(T::to_f64)));
     let signs = [0, 1, 2].map(|i| {
         if values[i] > error {
             Ordering::Greater
@@ -171,9 +171,7 @@ fn is_hit_exactly<T: Coordinate>(
 #[cold]
 #[inline(never)]
 fn t_exactly<T: Coordinate>(corners: &[[T; 3]; 3], ray: &Ray<3>, den: f64) -> f64 {
-    exact::volume(ray.origin, corners.map(|p| p.map(T::to_f64)))
-        .value()
-        .divided_by(Scaled::from(den))
+    hit_t(ray, corners.map(|p| p.map(T::to_f64)), den)
 }
 
 /// t, u, v and whether the front is hit, without rounding before the final quotients.
@@ -183,26 +181,13 @@ fn values_exactly<T: Coordinate>(corners: &[[T; 3]; 3], ray: &Ray<3>) -> (f64, f
     if !are_finite(corners) {
         return (f64::NAN, 0.0, 0.0, false);
     }
-    let [w, u, v] = directed_edges(corners).map(|(p, q)| edge_function(ray, p, q));
-    let mut den = w;
-    den.add_all(&u);
-    den.add_all(&v);
-    let front = den.sign() == Ordering::Greater;
-    let den = den.value();
-    let t = exact::volume(ray.origin, corners.map(|p| p.map(T::to_f64))).value().divided_by(den);
-    (t, u.value().divided_by(den), v.value().divided_by(den), front)
+    hit_values(ray, corners.map(|p| p.map(T::to_f64)))
 }
 
 /// Whether these are corners of a triangle at all. Those in a tree file that was not verified need not
 /// be; none of them is hit.
 fn are_finite<T: Coordinate>(corners: &[[T; 3]; 3]) -> bool {
     corners.as_flattened().iter().all(|x| x.to_f64().is_finite())
-}
-
-/// The edges of W, U and V: each runs opposite a, b and c.
-fn directed_edges<T: Coordinate>(corners: &[[T; 3]; 3]) -> [([f64; 3], [f64; 3]); 3] {
-    let [a, b, c] = corners.map(|p| p.map(T::to_f64));
-    [(b, c), (c, a), (a, b)]
 }
 
 /// Whether the numbers that are not zero share a sign, and there are any.
