@@ -30,7 +30,7 @@ impl<T: Precision> Scene<T> {
     /// mesh it is even for a ray from outside without end, and odd for one from inside.
     #[must_use]
     pub fn count(&self, ray: &Ray) -> usize {
-        T::count(self, ray)
+        T::crossed(self, ray).len()
     }
 
     /// [`count`](Self::count) of each ray, on this thread: `counts[i]` is that of `rays[i]`. In turns,
@@ -75,17 +75,18 @@ impl<T: Precision> Scene<T> {
         rays: impl IntoIterator<Item: Borrow<Ray>>,
         mut found: impl FnMut(usize, usize),
     ) {
-        let one = |ray: &Ray| self.all_hits(ray).map(|hit| hit.primitive_id).collect();
+        let one = |ray: &Ray| T::crossed(self, ray);
         self.each::<Count<'_, T>>(rays, one, |index, ids| found(index, ids.len()));
     }
 
-    /// What [`Precision`] compiles.
-    pub(super) fn find_count(&self, ray: &Ray) -> usize {
-        let Some(tree) = self.wide_and_mesh() else { return self.all_hits(ray).count() };
+    /// What [`Precision`] compiles: the triangles that the ray crosses, each once.
+    pub(super) fn find_crossed(&self, ray: &Ray) -> Vec<u32> {
+        let by_walk = || self.all_hits(ray).map(|hit| hit.primitive_id).collect();
+        let Some(tree) = self.wide_and_mesh() else { return by_walk() };
         let mut ids = Vec::new();
         match search_along::<Count<'_, T>>(tree, ray, self.instructions, &mut ids) {
-            Ok(()) | Err(NoAim::Missed) => ids.len(),
-            Err(NoAim::OutOfRange) => self.all_hits(ray).count(),
+            Ok(()) | Err(NoAim::Missed) => ids,
+            Err(NoAim::OutOfRange) => by_walk(),
         }
     }
 

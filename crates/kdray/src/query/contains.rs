@@ -95,7 +95,7 @@ impl<T: Precision> Scene<T> {
             let finite = |point: &[f64; 3]| point.iter().all(|x| x.is_finite());
             let numbered = points.iter().enumerate().filter(|(_, point)| finite(point));
             ways.extend(numbered.filter_map(|(i, &point)| Some((i, self.way_out(point)?))));
-            let one = |ray: &Ray| Crossed::of(self.begins_inside(ray));
+            let one = |ray: &Ray| Crossed::of(self.finds_inside(ray.origin));
             let rays = ways.iter().map(|(_, ray)| ray);
             self.each::<Inside<'_, T>>(rays, one, |way, crossed| {
                 inside[ways[way].0] = crossed.is_inside();

@@ -30,7 +30,7 @@ pub trait Precision: Coordinate {
     #[doc(hidden)]
     fn all_hits_into(scene: &Scene<Self>, ray: &Ray, hits: &mut Vec<Hit>);
     #[doc(hidden)]
-    fn count(scene: &Scene<Self>, ray: &Ray) -> usize;
+    fn crossed(scene: &Scene<Self>, ray: &Ray) -> Vec<u32>;
     #[doc(hidden)]
     fn counts(scene: &Scene<Self>, rays: &[Ray], counts: &mut [usize]);
     #[doc(hidden)]
@@ -106,8 +106,8 @@ macro_rules! compile_for {
                     scene.find_all_hits(ray, hits);
                 }
 
-                fn count(scene: &Scene<Self>, ray: &Ray) -> usize {
-                    scene.find_count(ray)
+                fn crossed(scene: &Scene<Self>, ray: &Ray) -> Vec<u32> {
+                    scene.find_crossed(ray)
                 }
 
                 fn counts(scene: &Scene<Self>, rays: &[Ray], counts: &mut [usize]) {
