@@ -13,7 +13,7 @@ pub(crate) fn run(steps: &mut Steps) -> Result<(), String> {
     let packages = Path::new(CRATE).join("tests/requirements.txt");
     let python = venv::python(steps, &home.join("venv"), &packages)?;
     // What the tests before compiled, but for its name.
-    steps.cargo("Python, compiled part", "build --workspace --all-targets", &[])?;
+    steps.cargo("Python, compiled part", "build --workspace --lib --bins", &[])?;
     let package = home.join("package");
     package::assemble(&package, "debug")?;
     let mut run = |what: &str, arguments: &[&str]| {
