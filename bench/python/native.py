@@ -1,6 +1,7 @@
 """The Rust library beside the package, on the same rays: both on one thread, by processor time."""
 
 import json
+import statistics
 import subprocess
 import time
 
@@ -9,6 +10,10 @@ from timing import ratio
 
 QUERIES = {"closest": "closest_hit", "any": "any_hit", "all": "all_hits"}
 """What the bench calls a query, and what the package does."""
+
+
+RUNS = 3
+"""How often each is run in a round, one after the other, as the program does; the median counts."""
 
 
 def overhead(program, folder, cases, rounds):
@@ -29,8 +34,13 @@ def overhead(program, folder, cases, rounds):
         for name, _, scene, rays in cases:
             about = json.loads((folder / name / "kdray, batch" / "about.json").read_text())
             for query, method in QUERIES.items():
-                begin = time.process_time()
-                getattr(scene, method)(rays, threads=1)
-                own.setdefault((name, query), []).append(time.process_time() - begin)
+                seconds = statistics.median(timed(getattr(scene, method), rays) for _ in range(RUNS))
+                own.setdefault((name, query), []).append(seconds)
                 native.setdefault((name, query), []).append(about[query])
     return {key: ratio(own[key], native[key]) for key in own}
+
+
+def timed(method, rays):
+    begin = time.process_time()
+    method(rays, threads=1)
+    return time.process_time() - begin

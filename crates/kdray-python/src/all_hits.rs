@@ -1,10 +1,10 @@
 //! All hits of each ray, and how many they are.
 
-use crate::cast::Cast;
+use crate::cast::{Cast, Room};
 use crate::closest_hit::BLOCK;
 use crate::columns::{Columns, Real};
 use crate::job::{Control, each_part};
-use crate::rays::{RayBlock, Rays};
+use crate::rays::Rays;
 use crate::tree::{Tree, for_scene};
 use pyo3::PyResult;
 use std::ops::Range;
@@ -16,8 +16,8 @@ const WAVE: usize = 256;
 /// The hits of a block of rays.
 struct Block<F> {
     rays: Range<usize>,
-    /// Where the hits of each ray end.
-    ends: Vec<usize>,
+    /// How many hits each ray has.
+    counts: Vec<usize>,
     hits: Columns<F>,
 }
 
@@ -34,8 +34,11 @@ pub(crate) fn all_hits<F: Real>(
     for first in (0..rays.len()).step_by(WAVE * BLOCK) {
         let wave = first..rays.len().min(first + WAVE * BLOCK);
         for block in wave_of_hits(tree, rays, wave, limit, control)? {
-            let before = hits.len();
-            offsets.extend(block.ends.iter().map(|end| (before + end) as i64));
+            let mut end = hits.len();
+            offsets.extend(block.counts.iter().map(|count| {
+                end += count;
+                end as i64
+            }));
             hits.append(&block.hits);
         }
     }
@@ -52,24 +55,24 @@ fn wave_of_hits<F: Real>(
 ) -> PyResult<Vec<Block<F>>> {
     let empty = |first: usize| Block {
         rays: first..wave.end.min(first + BLOCK),
-        ends: Vec::with_capacity(BLOCK),
+        counts: Vec::new(),
         hits: Columns::new(&tree.places),
     };
     let mut blocks: Vec<Block<F>> = wave.clone().step_by(BLOCK).map(empty).collect();
-    let scratch = || (RayBlock::default(), Vec::new());
+    let room = Room::default();
+    let scratch = || (Vec::new(), room.beside());
     let parts = blocks.iter_mut().collect();
-    each_part(control, parts, scratch, |(read, found), block: &mut Block<F>| {
+    each_part(control, parts, scratch, |(read, room), block: &mut Block<F>| {
         rays.read(block.rays.clone(), read)?;
-        for ray in &read.rays {
-            let most = block.hits.len().saturating_add(limit);
-            for_scene!(tree, scene => scene.all(ray, found, |hit| {
-                if block.hits.len() < most {
-                    block.hits.push(&tree.places, &hit);
-                }
-            }));
-            block.ends.push(block.hits.len());
-        }
-        control.add(read.rays.len());
+        let Block { counts, hits, .. } = block;
+        counts.resize(read.len(), 0);
+        for_scene!(tree, scene => scene.all(read, room, |index, hit| {
+            if counts[index] < limit {
+                counts[index] += 1;
+                hits.push(&tree.places, &hit);
+            }
+        }));
+        control.add(read.len());
         Ok(())
     })?;
     Ok(blocks)
@@ -79,12 +82,12 @@ fn wave_of_hits<F: Real>(
 pub(crate) fn count(tree: &Tree, rays: &Rays<'_>, control: &Control) -> PyResult<Vec<i32>> {
     let mut answers = vec![0; rays.len()];
     let parts = answers.chunks_mut(BLOCK).enumerate().collect();
-    let scratch = || (RayBlock::default(), Vec::new());
+    let scratch = <(Vec<_>, Vec<_>)>::default;
     each_part(control, parts, scratch, |(block, counts), (index, answers): (_, &mut [i32])| {
         let first = index * BLOCK;
         rays.read(first..first + answers.len(), block)?;
         counts.resize(answers.len(), 0);
-        for_scene!(tree, scene => Cast::counts(scene, &block.rays, counts));
+        for_scene!(tree, scene => Cast::counts(scene, block, counts));
         answers.iter_mut().zip(counts).for_each(|(answer, count)| *answer = *count as i32);
         control.add(answers.len());
         Ok(())

@@ -1,26 +1,58 @@
 //! What the scenes of the library have in common: answers to rays, block by block.
 
+use crate::columns::{Part, Real};
+use crate::pace::Pace;
+use crate::packet::{self, Packet};
+use kdray::geometry::Common;
+use kdray::primitives::HitArrays;
 use kdray::query::Precision;
-use kdray::{Hit, InstanceHit, InstancedScene, Ray, Scene};
+use kdray::{Coordinate, Hit, InstanceHit, InstancedScene, Ray, Scene};
+use std::ops::Range;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// Something that rays are cast at.
 pub(crate) trait Cast: Sync {
-    /// Gives `found` the closest hit of each ray, by its index. `hits` is room to work in.
-    fn closest(
-        &self,
-        rays: &[Ray],
-        hits: &mut Vec<Option<Hit>>,
-        found: impl FnMut(usize, Option<Found>),
-    );
+    /// The closest hit of each ray.
+    fn closest<F: Real>(&self, rays: &[Ray], room: &mut Room, found: &mut Part<'_, F>);
 
     /// Whether each ray has any hit.
-    fn any(&self, rays: &[Ray], found: &mut [bool]);
+    fn any(&self, rays: &[Ray], room: &mut Room, found: &mut [bool]);
 
     /// How many surfaces each ray crosses.
     fn counts(&self, rays: &[Ray], counts: &mut [usize]);
 
-    /// Gives `found` all hits of a ray in order. `hits` is room to work in.
-    fn all(&self, ray: &Ray, hits: &mut Vec<Hit>, found: impl FnMut(Found));
+    /// Gives `found` all hits in order, with the index of their ray: those of the first ray first.
+    fn all(&self, rays: &[Ray], room: &mut Room, found: impl FnMut(usize, Found));
+}
+
+/// Room to work in, from block to block.
+#[derive(Debug, Default)]
+pub(crate) struct Room {
+    pace: Arc<Mutex<Pace>>,
+    closest: Vec<Option<Hit>>,
+    packet: Packet,
+    of_packet: HitArrays,
+    any: Vec<bool>,
+    /// All hits of all rays in the order in which rays were done, and where those of each ray are.
+    all: Vec<Hit>,
+    places: Vec<Range<usize>>,
+}
+
+impl Room {
+    /// Room of another thread of the same call.
+    pub(crate) fn beside(&self) -> Self {
+        Self { pace: Arc::clone(&self.pace), ..Self::default() }
+    }
+
+    /// What the rays share, if they are to go in packets. There are none for f64 meshes.
+    fn common<T: Coordinate>(&self, rays: &[Ray]) -> Option<Common> {
+        let common = if T::FITS_TREE { packet::common(rays) } else { None };
+        common.filter(|_| self.pace().tries_packets())
+    }
+
+    fn pace(&self) -> MutexGuard<'_, Pace> {
+        self.pace.lock().unwrap_or_else(PoisonError::into_inner)
+    }
 }
 
 /// A hit.
@@ -44,45 +76,54 @@ impl From<InstanceHit> for Found {
 }
 
 impl<T: Precision> Cast for Scene<T> {
-    fn closest(
-        &self,
-        rays: &[Ray],
-        hits: &mut Vec<Option<Hit>>,
-        mut found: impl FnMut(usize, Option<Found>),
-    ) {
-        hits.clear();
-        hits.resize(rays.len(), None);
-        self.closest_hits(rays, hits);
-        hits.iter().enumerate().for_each(|(i, hit)| found(i, hit.map(Found::from)));
+    fn closest<F: Real>(&self, rays: &[Ray], room: &mut Room, found: &mut Part<'_, F>) {
+        if let Some(common) = room.common::<T>(rays) {
+            let (packet, order) = room.packet.of(common, rays);
+            let work = self.packet_closest_hits(&packet, &mut room.of_packet);
+            found.set_packet(order, &room.of_packet);
+            room.pace().learn(&work, rays.len());
+        } else {
+            room.closest.resize(rays.len(), None);
+            self.closest_hits(rays, &mut room.closest);
+            found.set_each(room.closest.iter().map(|hit| hit.map(Found::from)));
+        }
     }
 
-    fn any(&self, rays: &[Ray], found: &mut [bool]) {
-        self.any_hits(rays, found);
+    fn any(&self, rays: &[Ray], room: &mut Room, found: &mut [bool]) {
+        let Some(common) = room.common::<T>(rays) else { return self.any_hits(rays, found) };
+        let (packet, order) = room.packet.of(common, rays);
+        room.any.resize(rays.len(), false);
+        let work = self.packet_any_hits(&packet, &mut room.any);
+        order.iter().zip(&room.any).for_each(|(&ray, &hit)| found[ray as usize] = hit);
+        room.pace().learn(&work, rays.len());
     }
 
     fn counts(&self, rays: &[Ray], counts: &mut [usize]) {
         Self::counts(self, rays, counts);
     }
 
-    fn all(&self, ray: &Ray, hits: &mut Vec<Hit>, mut found: impl FnMut(Found)) {
-        self.all_hits_into(ray, hits);
-        hits.iter().for_each(|&hit| found(hit.into()));
+    fn all(&self, rays: &[Ray], room: &mut Room, mut found: impl FnMut(usize, Found)) {
+        let Room { all, places, .. } = room;
+        all.clear();
+        places.resize(rays.len(), 0..0);
+        self.each_all_hits(rays, |index, hits| {
+            places[index] = all.len()..all.len() + hits.len();
+            all.extend_from_slice(hits);
+        });
+        for (index, place) in places.iter().enumerate() {
+            all[place.clone()].iter().for_each(|&hit| found(index, hit.into()));
+        }
     }
 }
 
 impl<T: Precision> Cast for InstancedScene<T> {
-    fn closest(
-        &self,
-        rays: &[Ray],
-        _: &mut Vec<Option<Hit>>,
-        mut found: impl FnMut(usize, Option<Found>),
-    ) {
+    fn closest<F: Real>(&self, rays: &[Ray], _: &mut Room, found: &mut Part<'_, F>) {
         let mut hits = vec![None; rays.len()];
         self.closest_hits(rays, &mut hits);
-        hits.iter().enumerate().for_each(|(i, hit)| found(i, hit.map(Found::from)));
+        found.set_each(hits.iter().map(|hit| hit.map(Found::from)));
     }
 
-    fn any(&self, rays: &[Ray], found: &mut [bool]) {
+    fn any(&self, rays: &[Ray], _: &mut Room, found: &mut [bool]) {
         self.any_hits(rays, found);
     }
 
@@ -90,9 +131,11 @@ impl<T: Precision> Cast for InstancedScene<T> {
         rays.iter().zip(counts).for_each(|(ray, count)| *count = self.count(ray));
     }
 
-    fn all(&self, ray: &Ray, _: &mut Vec<Hit>, mut found: impl FnMut(Found)) {
+    fn all(&self, rays: &[Ray], _: &mut Room, mut found: impl FnMut(usize, Found)) {
         let mut hits = Vec::new();
-        self.all_hits_into(ray, &mut hits);
-        hits.into_iter().for_each(|hit| found(hit.into()));
+        for (index, ray) in rays.iter().enumerate() {
+            self.all_hits_into(ray, &mut hits);
+            hits.iter().for_each(|&hit| found(index, hit.into()));
+        }
     }
 }

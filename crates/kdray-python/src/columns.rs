@@ -3,6 +3,7 @@
 use crate::cast::Found;
 use crate::tree::Places;
 use kdray::Side;
+use kdray::primitives::HitArrays;
 use numpy::{Element, IntoPyArray};
 use pyo3::{Bound, IntoPyObject, PyAny, Python};
 use std::ops::Range;
@@ -59,6 +60,7 @@ pub(crate) struct Arrays<'py>(
 pub(crate) struct Part<'a, F> {
     /// Which rays they are.
     pub(crate) range: Range<usize>,
+    places: &'a Places,
     t: &'a mut [F],
     u: &'a mut [F],
     v: &'a mut [F],
@@ -92,7 +94,7 @@ impl<F: Real> Columns<F> {
     }
 
     /// The same room in parts, each for `size` rays but the last.
-    pub(crate) fn parts(&mut self, size: usize) -> Vec<Part<'_, F>> {
+    pub(crate) fn parts<'a>(&'a mut self, size: usize, places: &'a Places) -> Vec<Part<'a, F>> {
         let count = self.t.len();
         let mut geometries = self.geometry_id.as_mut().map(|ids| ids.chunks_mut(size));
         let mut instances = self.instance_id.as_mut().map(|ids| ids.chunks_mut(size));
@@ -102,6 +104,7 @@ impl<F: Real> Columns<F> {
         let parts = floats.zip(others).enumerate();
         let part = |(index, (((t, u), v), (primitive_id, is_front)))| Part {
             range: index * size..count.min((index + 1) * size),
+            places,
             t,
             u,
             v,
@@ -169,16 +172,37 @@ fn append_ids(ids: &mut Option<Vec<i32>>, others: &Option<Vec<i32>>) {
 }
 
 impl<F: Real> Part<'_, F> {
+    /// Keeps what each of the rays hit.
+    pub(crate) fn set_each(&mut self, found: impl Iterator<Item = Option<Found>>) {
+        found.enumerate().for_each(|(index, found)| self.set(index, found));
+    }
+
+    /// Keeps what the rays of a packet hit; `order` has the index of each in the part. Column by column, for one
+    /// fits the first-level cache.
+    pub(crate) fn set_packet(&mut self, order: &[u32], hits: &HitArrays) {
+        if self.places.are_many() {
+            let hit = |place| hits.get(place).map(Found::from);
+            let indices = order.iter().enumerate();
+            return indices.for_each(|(place, &index)| self.set(index as usize, hit(place)));
+        }
+        scatter(order, hits.t(), self.t, F::of);
+        scatter(order, hits.u(), self.u, F::of);
+        scatter(order, hits.v(), self.v, F::of);
+        // The id of no hit becomes -1.
+        scatter(order, hits.primitive_id(), self.primitive_id, |id| id as i32);
+        scatter(order, hits.is_front(), self.is_front, |is_front| is_front);
+    }
+
     /// Keeps what the ray of that index in the part hit. A ray that hits nothing has an infinite t, and ids
     /// of nothing.
-    pub(crate) fn set(&mut self, index: usize, places: &Places, found: Option<&Found>) {
+    fn set(&mut self, index: usize, found: Option<Found>) {
         let Some(found) = found else {
             self.t[index] = F::of(f64::INFINITY);
             self.primitive_id[index] = NONE;
             self.set_ids(index, NONE, NONE);
             return;
         };
-        let place = places.of(found);
+        let place = self.places.of(&found);
         self.t[index] = F::of(found.hit.t);
         self.u[index] = F::of(found.hit.u);
         self.v[index] = F::of(found.hit.v);
@@ -191,4 +215,8 @@ impl<F: Real> Part<'_, F> {
         self.geometry_id.iter_mut().for_each(|ids| ids[index] = geometry_id);
         self.instance_id.iter_mut().for_each(|ids| ids[index] = instance_id);
     }
+}
+
+fn scatter<A: Copy, B>(order: &[u32], from: &[A], to: &mut [B], of: impl Fn(A) -> B) {
+    order.iter().zip(from).for_each(|(&index, &number)| to[index as usize] = of(number));
 }

@@ -11,6 +11,9 @@ use std::ops::Range;
 /// As many points as are read and answered at a time.
 pub(crate) const BLOCK: usize = 256;
 
+/// The same where they are answered in turns.
+const TURNS: usize = 1024;
+
 /// Points of a caller.
 #[derive(Debug)]
 pub(crate) struct Points<'a> {
@@ -77,21 +80,30 @@ pub(crate) fn each_point<A: Copy + Default + Send>(
     control: &Control,
     answer: impl Fn([f64; 3]) -> A + Send + Sync,
 ) -> PyResult<Vec<A>> {
-    each_block(points, control, |points, answers| {
+    by_blocks(points, BLOCK, control, |points, answers| {
         answers.iter_mut().zip(points).for_each(|(place, &point)| *place = answer(point));
     })
 }
 
-/// The same, where `answer` takes many points at once.
+/// The same, where `answer` takes many points at once, and in turns.
 pub(crate) fn each_block<A: Copy + Default + Send>(
     points: &Points<'_>,
     control: &Control,
     answer: impl Fn(&[[f64; 3]], &mut [A]) + Send + Sync,
 ) -> PyResult<Vec<A>> {
+    by_blocks(points, TURNS, control, answer)
+}
+
+fn by_blocks<A: Copy + Default + Send>(
+    points: &Points<'_>,
+    size: usize,
+    control: &Control,
+    answer: impl Fn(&[[f64; 3]], &mut [A]) + Send + Sync,
+) -> PyResult<Vec<A>> {
     let mut answers = vec![A::default(); points.len()];
-    let parts = answers.chunks_mut(BLOCK).enumerate().collect();
+    let parts = answers.chunks_mut(size).enumerate().collect();
     each_part(control, parts, Vec::new, |block, (index, answers): (usize, &mut [A])| {
-        let first = index * BLOCK;
+        let first = index * size;
         points.read(first..first + answers.len(), block)?;
         answer(block, answers);
         control.add(answers.len());

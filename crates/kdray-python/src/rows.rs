@@ -60,22 +60,52 @@ impl<const N: usize> Rows<'_, N> {
         }
     }
 
-    /// Replaces `rows` by those of `range`, in the order of C.
+    /// The row that all of them are, where they are one in memory: of arrays that were broadcast.
+    pub(crate) fn same(&self) -> Option<[f64; N]> {
+        match self {
+            Self::F32(view) => same(view),
+            Self::F64(view) => same(view),
+        }
+    }
+
+    /// Gives `take` the rows of `range`, in the order of C.
+    #[inline]
+    pub(crate) fn each(&self, range: Range<usize>, take: impl FnMut([f64; N])) {
+        match self {
+            Self::F32(view) => each(view, range, take),
+            Self::F64(view) => each(view, range, take),
+        }
+    }
+
+    /// Replaces `rows` by those of `range`.
     pub(crate) fn read(&self, range: Range<usize>, rows: &mut Vec<[f64; N]>) {
         rows.clear();
-        match self {
-            Self::F32(view) => read(view, range, rows),
-            Self::F64(view) => read(view, range, rows),
-        }
+        rows.reserve(range.len());
+        self.each(range, |row| rows.push(row));
     }
 }
 
-/// Reads run by run: as many rows as follow each other in the last dimension but one.
-fn read<T: Copy + Into<f64>, const N: usize>(
+/// The only row in memory, if there is one.
+fn same<T: Copy + Into<f64>, const N: usize>(view: &ArrayViewD<'_, T>) -> Option<[f64; N]> {
+    let axes = view.shape().iter().zip(view.strides()).rev().skip(1);
+    let is_one = !view.is_empty() && axes.into_iter().all(|(&len, &step)| len == 1 || step == 0);
+    let mut first = None;
+    if is_one {
+        each(view, 0..1, |row| first = Some(row));
+    }
+    first
+}
+
+/// Goes run by run, unless all rows follow each other: as many rows as there are in the last dimension but one.
+#[inline]
+fn each<T: Copy + Into<f64>, const N: usize>(
     view: &ArrayViewD<'_, T>,
     range: Range<usize>,
-    rows: &mut Vec<[f64; N]>,
+    mut take: impl FnMut([f64; N]),
 ) {
+    if let Some(numbers) = view.to_slice() {
+        return each_of_slice(numbers, range, take);
+    }
     let length = view.shape()[view.ndim() - 2];
     let mut next = range.start;
     while next < range.end {
@@ -83,14 +113,24 @@ fn read<T: Copy + Into<f64>, const N: usize>(
         let first = next % length;
         let end = length.min(first + range.end - next);
         match run.to_slice() {
-            Some(numbers) => {
-                let (numbers, _) = numbers.as_chunks::<N>();
-                rows.extend(numbers[first..end].iter().map(|row| row.map(Into::into)));
+            Some(numbers) => each_of_slice(numbers, first..end, &mut take),
+            None => {
+                let rows = run.slice_axis_move(Axis(0), (first..end).into());
+                rows.outer_iter().for_each(|row| take(std::array::from_fn(|k| row[k].into())));
             }
-            None => rows.extend((first..end).map(|i| std::array::from_fn(|k| run[[i, k]].into()))),
         }
         next += end - first;
     }
+}
+
+#[inline]
+fn each_of_slice<T: Copy + Into<f64>, const N: usize>(
+    numbers: &[T],
+    range: Range<usize>,
+    mut take: impl FnMut([f64; N]),
+) {
+    let (rows, _) = numbers.as_chunks::<N>();
+    rows[range].iter().for_each(|row| take(row.map(Into::into)));
 }
 
 /// The run of that index.

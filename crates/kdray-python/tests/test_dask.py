@@ -131,23 +131,32 @@ def test_pictures_of_mesh_files(tmp_path):
 
 
 def test_a_worker_that_is_killed_loses_nothing(tree):
-    rays = random_rays(400_000)
+    rays = random_rays(20_000)
+
+    def held(block, block_info):
+        """The last rays are there when a worker was killed."""
+        if block_info[0]["chunk-location"][0] == 19:
+            assert distributed.Event("killed").wait("60s"), "no worker was killed"
+        return block
+
     with distributed.LocalCluster(
         n_workers=2, threads_per_worker=1, dashboard_address=None
     ) as cluster, distributed.Client(cluster) as client:
-        lazy = kdray.dask.closest_hit(tree, rays, per_task=1000)["t"]
-        future = client.compute(lazy)
-        victim = next(iter(client.scheduler_info()["workers"]))
-        pid = client.run(os.getpid, workers=[victim])[victim]
-        deadline = time.monotonic() + 60
-        while not any(state == "memory" for state in client.run_on_scheduler(states)):
-            assert time.monotonic() < deadline, "no task was finished"
-            time.sleep(0.01)
-        os.kill(pid, signal.SIGKILL)
-        assert not future.done(), "the worker died too late to be missed"
+        lazy = da.from_array(rays, chunks=(1000, 6)).map_blocks(held, dtype=rays.dtype)
+        future = client.compute(kdray.dask.closest_hit(tree, lazy)["t"])
+        victim = with_answers(client)
+        os.kill(client.run(os.getpid, workers=[victim])[victim], signal.SIGKILL)
+        distributed.Event("killed").set()
         t = future.result(timeout=120)
     np.testing.assert_array_equal(t, kdray.Scene.mmap(tree).closest_hit(rays).t)
 
 
-def states(dask_scheduler):
-    return [task.state for task in dask_scheduler.tasks.values()]
+def with_answers(client):
+    """A worker that has answers, for which it waits."""
+    deadline = time.monotonic() + 60
+    while time.monotonic() < deadline:
+        for worker, keys in client.has_what().items():
+            if keys:
+                return worker
+        time.sleep(0.01)
+    raise AssertionError("no task was finished")

@@ -25,7 +25,7 @@ def test_rays(cube, query):
     fails(wrong, "origins", ask, [1.0, 2], x)
     fails(wrong, "directions", ask, x, np.zeros((2, 4)))
     fails(wrong, "origins, directions, t_min, t_max", ask, np.ones((2, 3)), np.ones((5, 3)))
-    fails(wrong, "origins, directions, t_min, t_max", ask, np.ones((2, 6)), t_max=np.ones(3))
+    fails(wrong, "rays, t_min, t_max", ask, np.ones((2, 6)), t_max=np.ones(3))
     fails(wrong, "origins", ask, [NAN, 0, 0], x)
     fails(wrong, "origins", ask, [INF, 0, 0], x)
     fails(wrong, "directions", ask, x, [0, NAN, 0])

@@ -112,9 +112,6 @@ class AllHits(Hits):
     offsets: NDArray[np.int64]
     """Where the hits of each ray begin; behind that, where the last end."""
 
-    counts: NDArray[np.int64]
-    """How many hits each ray has, in the shape of the rays."""
-
     def __init__(
         self,
         tree: Tree,
@@ -123,10 +120,16 @@ class AllHits(Hits):
         shape: tuple[int, ...],
     ) -> None:
         super().__init__(tree, arrays, arrays[0].shape)
-        self.offsets, self.counts = offsets, np.diff(offsets).reshape(shape)
+        self.offsets, self._shape_of_rays = offsets, shape
+
+    @cached_property
+    def counts(self) -> NDArray[np.int64]:
+        """How many hits each ray has, in the shape of the rays."""
+        counts: NDArray[np.int64] = np.diff(self.offsets).reshape(self._shape_of_rays)
+        return counts
 
     @cached_property
     def ray_id(self) -> NDArray[np.int64]:
         """The ray of each hit."""
-        counts = np.diff(self.offsets)
-        return np.repeat(np.arange(len(counts), dtype=np.int64), counts)
+        rays = np.arange(self.counts.size, dtype=np.int64)
+        return np.repeat(rays, self.counts.reshape(-1))

@@ -11,8 +11,8 @@ from numpy.typing import ArrayLike
 from .arrays import FloatArray, broadcast, common_shape, floats, vectors
 from .errors import ArgumentError
 
-RayArrays = tuple[FloatArray, FloatArray, FloatArray, FloatArray]
-"""Origins, directions, and the bounds of t: what the compiled part takes."""
+RayArrays = tuple[FloatArray, Optional[FloatArray], FloatArray, FloatArray]
+"""Origins and directions, or rays of six numbers alone, and the bounds of t: what the compiled part takes."""
 
 
 @dataclass(frozen=True)
@@ -20,13 +20,13 @@ class Rays:
     """Rays of one shape. Nothing is copied but what is no array of f32 or f64."""
 
     arrays: RayArrays
-    """Of shape (..., 3), (..., 3), (..., 1) and (..., 1), with the same shape before the last."""
+    """Of shape (..., 3) twice, or (..., 6) and none, and (..., 1) twice, with the same shape before the last."""
 
     shape: tuple[int, ...]
     """What they have in common before the last dimension, and so do the answers."""
 
     is_double: bool
-    """Whether answers are f64: unless origins and directions are both f32."""
+    """Whether answers are f64: unless all of origins and directions is f32."""
 
     @classmethod
     def of(
@@ -38,17 +38,15 @@ class Rays:
     ) -> Rays:
         """Rays of one array (..., 6), or of origins and directions (..., 3); with bounds of t (...)."""
         if directions is None:
-            rays = vectors("rays", origins, 6)
-            first, second = rays[..., :3], rays[..., 3:]
+            lines = {"rays": vectors("rays", origins, 6)}
         else:
-            first, second = vectors("origins", origins), vectors("directions", directions)
+            lines = {"origins": vectors("origins", origins), "directions": vectors("directions", directions)}
         bounds = {"t_min": floats("t_min", t_min), "t_max": floats("t_max", t_max)}
-        arguments = {"origins": first, "directions": second}
-        arguments |= {name: bound[..., np.newaxis] for name, bound in bounds.items()}
+        arguments = lines | {name: bound[..., np.newaxis] for name, bound in bounds.items()}
         shape = common_shape(arguments)
-        a, b, c, d = (broadcast(shape, array) for array in arguments.values())
-        is_double = not first.dtype == second.dtype == np.float32
-        return cls((a, b, c, d), shape, is_double)
+        first, *second, low, high = (broadcast(shape, array) for array in arguments.values())
+        is_double = not all(array.dtype == np.float32 for array in lines.values())
+        return cls((first, second[0] if second else None, low, high), shape, is_double)
 
 
 def is_lenient(invalid: str) -> bool:

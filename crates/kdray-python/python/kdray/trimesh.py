@@ -134,7 +134,8 @@ class RayMeshIntersector:
             raise ArgumentError(f"ray_origins, ray_directions: {text}")
         bounds = self.scene.bounds
         behind = 0.0 if bounds is None else ON_SURFACE * float(np.abs(bounds).max())
-        lengths = np.linalg.norm(directions, axis=1)
+        # Faster than numpy.linalg.norm, and the same but for the order of a sum.
+        lengths = np.sqrt(np.einsum("ij,ij->i", directions, directions))
         t_min = np.divide(-behind, lengths, out=np.zeros_like(lengths), where=lengths > 0.0)
         return {"origins": origins, "directions": directions, "t_min": t_min, "invalid": "miss"}
 
