@@ -64,10 +64,13 @@ fn cut(folder: &Path) -> io::Result<u64> {
         files.push((entry.metadata()?.len(), entry.path()));
     }
     files.sort();
-    let step = files.len().div_ceil(MOST_INPUTS).max(1);
+    let count = files.len();
+    let most = count.min(MOST_INPUTS);
+    // `most` of them, evenly.
+    let is_chosen = |i: usize| i * most / count != (i + 1) * most / count;
     let mut sum = 0;
     for (index, (bytes, path)) in files.into_iter().enumerate() {
-        if index.is_multiple_of(step) && sum + bytes <= MOST_BYTES {
+        if is_chosen(index) && sum + bytes <= MOST_BYTES {
             sum += bytes;
         } else {
             fs::remove_file(path)?;

@@ -25,7 +25,7 @@ pub struct Accumulator<const LIMBS: usize = ALL_LIMBS> {
     lowest: i32,
 }
 
-/// Wide enough for a dozen products of three integers below 2^120.
+/// Wide enough for 2^24 products of three integers below 2^120: 360 bits, and 24 for carries.
 pub(super) type ShortAccumulator = Accumulator<6>;
 
 /// A number `mantissa · 2^exponent` whose exponent may be beyond that of an f64.
@@ -79,6 +79,7 @@ impl ShortAccumulator {
     #[inline]
     pub(super) fn add_integers(&mut self, [a, b, c]: [i128; 3]) {
         let negative = (a < 0) ^ (b < 0) ^ (c < 0);
+        debug_assert!([a, b, c].iter().all(|x| x.unsigned_abs() < 1 << 120));
         let [a, b, c] = [a, b, c].map(|x| limbs(x.unsigned_abs()));
         let product: [u64; 6] = product(product::<2, 4>(a, b), c);
         add_at(if negative { &mut self.subtracted } else { &mut self.added }, 0, &product);
@@ -217,7 +218,8 @@ fn power_of_two(exponent: i32) -> f64 {
     })
 }
 
-/// A finite f64 as ±mantissa · 2^exponent.
+/// A finite f64 as ±mantissa · 2^exponent. Others are some number, too: who asks has looked, or asks about the
+/// corners of a tree file that nobody verified.
 pub(super) struct Decoded {
     pub(super) mantissa: u64,
     pub(super) exponent: i32,
@@ -227,7 +229,6 @@ pub(super) struct Decoded {
 impl Decoded {
     #[inline]
     pub(super) fn of(x: f64) -> Self {
-        debug_assert!(x.is_finite());
         let bits = x.to_bits();
         let biased = (bits >> 52 & 0x7ff) as i32;
         let fraction = bits & ((1 << 52) - 1);

@@ -3,7 +3,7 @@
 use super::Accumulator;
 use super::accumulator::ShortAccumulator;
 use super::lattice::{
-    cross_product, minus, on_lattice, on_long_lattice, sign_of_products, triple_product,
+    cross_component_sign, minus, on_lattice, on_long_lattice, sign_of_products, triple_product,
 };
 use crate::geometry::Ray;
 use std::cmp::Ordering;
@@ -92,16 +92,26 @@ pub fn moved_edge_sign(ray: &Ray<3>, p: [f64; 3], q: [f64; 3], sign: Ordering) -
     if sign != Ordering::Equal {
         return sign;
     }
-    // Component i of (q − p) x d, with j and k behind it in cyclic order.
-    match on_long_lattice([ray.direction]).zip(on_long_lattice([p, q])) {
-        Some((([d], _), ([p, q], _))) => {
-            first_sign(|plane| cross_product(minus(q, p), d, plane, 0).sign())
+    match on_lattice(ray.direction).zip(around_origin(ray.origin, p, q)) {
+        Some((d, [p, q])) => {
+            let d = d.map(i128::from);
+            first_sign(|(j, k)| ((q[j] - p[j]) * d[k]).cmp(&((q[k] - p[k]) * d[j])))
         }
-        None => first_sign(|plane| crossed_component(ray.direction, p, q, plane).sign()),
+        None => sign_along(ray.direction, p, q),
     }
 }
 
-/// The sign of the first component that is not zero.
+/// The sign of (q − p) x d: see [`first_sign`].
+fn sign_along(direction: [f64; 3], p: [f64; 3], q: [f64; 3]) -> Ordering {
+    match on_long_lattice([direction]).zip(on_long_lattice([p, q])) {
+        Some((([d], _), ([p, q], _))) => {
+            first_sign(|plane| cross_component_sign(minus(q, p), d, plane))
+        }
+        None => first_sign(|plane| crossed_component(direction, p, q, plane).sign()),
+    }
+}
+
+/// The sign of the first component that is not zero, of which `sign` tells that in a plane of two axes.
 fn first_sign(sign: impl Fn((usize, usize)) -> Ordering) -> Ordering {
     sign((1, 2)).then_with(|| sign((2, 0))).then_with(|| sign((0, 1)))
 }
@@ -135,7 +145,7 @@ pub fn cross_component<const K: usize>(
 /// The sign of [`cross_component`].
 pub(super) fn cross_sign(o: [f64; 3], a: [f64; 3], b: [f64; 3], plane: (usize, usize)) -> Ordering {
     match on_long_lattice([o, a, b]) {
-        Some(([o, a, b], _)) => cross_product(minus(a, o), minus(b, o), plane, 0).sign(),
+        Some(([o, a, b], _)) => cross_component_sign(minus(a, o), minus(b, o), plane),
         None => cross_component(o, a, b, plane).sign(),
     }
 }
@@ -208,17 +218,20 @@ mod tests {
     }
 
     proptest::proptest! {
-        /// Numbers of a few bits, whose signs are often zero, of many, and of all, which have no lattice.
+        /// Numbers of few digits, whose signs are often zero, of all digits, and of sizes that have no lattice.
         #[test]
         fn the_sign_is_that_of_the_sum(
             numbers in proptest::array::uniform12(-9_i32..10),
             shifts in proptest::array::uniform12(0_i32..58),
             is_shifted in proptest::bool::ANY,
             scales in proptest::array::uniform2(-600_i32..600),
+            is_divided in proptest::bool::ANY,
             more in proptest::option::of(0_usize..12),
         ) {
             let shift = |i: usize| if is_shifted { 2.0_f64.powi(shifts[i]) } else { 1.0 };
-            let mut all: [f64; 12] = std::array::from_fn(|i| f64::from(numbers[i]) * shift(i));
+            let divisor = if is_divided { 3.0 } else { 1.0 };
+            let number = |i: usize| f64::from(numbers[i]) * shift(i) / divisor;
+            let mut all: [f64; 12] = std::array::from_fn(number);
             all[..3].iter_mut().for_each(|x| *x *= 2.0_f64.powi(scales[0]));
             all[3..].iter_mut().for_each(|x| *x *= 2.0_f64.powi(scales[1]));
             if let Some(place) = more {
@@ -231,11 +244,14 @@ mod tests {
             if let Some(short) = short_edge_function(&ray, p, q) {
                 proptest::prop_assert_eq!(short.value(), edge_function(&ray, p, q).value());
             }
-            if let Some(short) = short_volume(o, [d, p, q]) {
-                proptest::prop_assert_eq!(short.value(), volume(o, [d, p, q]).value());
+            let corners = [p, q, [q[1], p[0], o[2]]];
+            if let Some(short) = short_volume(o, corners) {
+                proptest::prop_assert_eq!(short.value(), volume(o, corners).value());
             }
-            let moved = first_sign(|plane| crossed_component(d, p, q, plane).sign());
+            let component = |plane| crossed_component(d, p, q, plane).sign();
+            let moved = component((1, 2)).then(component((2, 0))).then(component((0, 1)));
             proptest::prop_assert_eq!(moved_edge_sign(&ray, p, q, Ordering::Equal), moved);
+            proptest::prop_assert_eq!(sign_along(d, p, q), moved);
             for plane in [(0, 1), (2, 0)] {
                 let sign = cross_component(o, p, q, plane).sign();
                 proptest::prop_assert_eq!(cross_sign(o, p, q, plane), sign);

@@ -10,6 +10,9 @@ const BITS: i32 = 60;
 /// As many as they may have on the long lattice, where their differences have one more.
 const LONG_BITS: i32 = 118;
 
+/// How far the mantissa of the largest number is shifted, if it is one of those that have 52 bits.
+const MOST_SHIFT: i32 = LONG_BITS - 52;
+
 /// Far from overflow and underflow.
 const SIZES: std::ops::Range<f64> = 1e-200..1e200;
 
@@ -58,12 +61,14 @@ pub(super) fn on_long_lattice<const N: usize>(
     Some((integers, unit))
 }
 
-/// The number as a multiple of 2^unit, if it is one, of less than 127 bits.
+/// The number as a multiple of 2^unit; `None` if it is none, or is 2^119 or more, as only what is not finite can be.
 #[inline]
 fn in_units(x: f64, unit: i32) -> Option<i128> {
     let Decoded { mantissa, exponent, negative } = Decoded::of(x);
     let shift = exponent - unit;
-    let size = if shift >= 0 {
+    let size = if shift > MOST_SHIFT {
+        return None;
+    } else if shift >= 0 {
         i128::from(mantissa) << shift
     } else if mantissa == 0 {
         0
@@ -75,18 +80,13 @@ fn in_units(x: f64, unit: i32) -> Option<i128> {
     Some(if negative { -size } else { size })
 }
 
-/// a_i b_j − a_j b_i, of integers below 2^119 in size, in units of that power of two.
+/// The sign of a_i b_j − a_j b_i, of integers below 2^119 in size.
 #[inline]
-pub(super) fn cross_product<const K: usize>(
-    a: [i128; K],
-    b: [i128; K],
-    (i, j): (usize, usize),
-    unit: i32,
-) -> ShortAccumulator {
-    let mut sum = ShortAccumulator::of_units(unit);
+pub(super) fn cross_component_sign(a: [i128; 3], b: [i128; 3], (i, j): (usize, usize)) -> Ordering {
+    let mut sum = ShortAccumulator::of_units(0);
     sum.add_integers([a[i], b[j], 1]);
     sum.add_integers([-a[j], b[i], 1]);
-    sum
+    sum.sign()
 }
 
 /// The vector between two points.

@@ -2,8 +2,8 @@
 //!
 //! A hit is decided as if in real arithmetic on the given floats. Plain f64 with an error bound
 //! settles nearly all cases (the *filter*, in [`crate::primitives`]); what is left is evaluated
-//! here without any rounding, in an [`Accumulator`] wide enough for every sum of products of three
-//! f64 numbers.
+//! here without any rounding: in integers of 60 or 118 bits where the numbers are multiples of one unit,
+//! else in an [`Accumulator`] wide enough for every sum of products of three f64 numbers.
 //!
 //! # The edge function
 //! With p' = p − o relative to the ray's origin, the edge function of the directed edge (p, q) is

@@ -1,7 +1,9 @@
 //! The ray–triangle test: a filter in f64, and exact arithmetic where the filter cannot tell.
 
 use super::{Hit, HitRule, Side};
-use crate::exact::{directed_edges, edge_sign, hit_t, hit_values, moved_edge_sign, not_vanished};
+use crate::exact::{
+    Values, directed_edges, edge_sign, hit_t, hit_values, moved_edge_sign, not_vanished,
+};
 use crate::geometry::{Coordinate, Interval, Ray, t_above, t_below};
 use glam::{DVec3, Vec3Swizzles};
 use std::cmp::Ordering;
@@ -177,7 +179,7 @@ fn t_exactly<T: Coordinate>(corners: &[[T; 3]; 3], ray: &Ray<3>, den: f64) -> f6
 /// t, u, v and whether the front is hit, without rounding before the final quotients.
 #[cold]
 #[inline(never)]
-fn values_exactly<T: Coordinate>(corners: &[[T; 3]; 3], ray: &Ray<3>) -> (f64, f64, f64, bool) {
+fn values_exactly<T: Coordinate>(corners: &[[T; 3]; 3], ray: &Ray<3>) -> Values {
     if !are_finite(corners) {
         return (f64::NAN, 0.0, 0.0, false);
     }
