@@ -11,5 +11,6 @@ mod rounded_way_to_a_target;
 mod sign_of_zero;
 mod target_from_the_wrong_end;
 mod ties_where_rays_begin;
+mod triangles_left_out_of_sums;
 mod underflow_of_den;
 mod underflow_of_t;

@@ -2,7 +2,7 @@
 
 use super::moments::Moments;
 use crate::geometry::Coordinate;
-use crate::primitives::{Primitives, TriangleMesh};
+use crate::primitives::{Primitives, TriangleMesh, in_range};
 use glam::DVec3;
 
 /// Triangles in a cluster that is not cut.
@@ -45,8 +45,8 @@ impl Clusters {
     /// Puts the triangles of a mesh in clusters; those without area, which cover nothing, are left
     /// out. O(N log N); takes 56 bytes a triangle more while it works.
     pub fn of<T: Coordinate>(mesh: &TriangleMesh<T>) -> Self {
-        let pieces = (0..mesh.count() as u32).map(|id| Piece::of(mesh, id));
-        let mut pieces: Vec<Piece> = pieces.filter(|p| p.normal != DVec3::ZERO).collect();
+        let ids = 0..mesh.count() as u32;
+        let mut pieces: Vec<Piece> = ids.filter_map(|id| Piece::of(mesh, id)).collect();
         let mut clusters = Vec::with_capacity(pieces.len() / 2);
         if !pieces.is_empty() {
             let last = pieces.len();
@@ -82,10 +82,19 @@ impl Cluster {
 }
 
 impl Piece {
-    fn of<T: Coordinate>(mesh: &TriangleMesh<T>, id: u32) -> Self {
+    /// `None` for a triangle without area.
+    fn of<T: Coordinate>(mesh: &TriangleMesh<T>, id: u32) -> Option<Self> {
         let [a, b, c] = corners(mesh, id);
-        Self { id, middle: (a + b + c) / 3.0, normal: 0.5 * (b - a).cross(c - a) }
+        let normal = 0.5 * (b - a).cross(c - a);
+        let counts = normal != DVec3::ZERO || has_tiny_area(mesh, id);
+        counts.then_some(Self { id, middle: (a + b + c) / 3.0, normal })
     }
+}
+
+/// Whether an area that is computed as zero is only so small.
+fn has_tiny_area<T: Coordinate>(mesh: &TriangleMesh<T>, id: u32) -> bool {
+    let ([a, b, c], _) = in_range(mesh.corners(id).map(|p| p.map(T::to_f64)));
+    (b - a).cross(c - a) != DVec3::ZERO
 }
 
 /// The corners of a triangle, in the mesh's coordinates but for the scale: these are the same for f32 and

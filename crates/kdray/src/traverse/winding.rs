@@ -9,6 +9,10 @@ use std::f64::consts::PI;
 /// A cluster is far from points at this many radii from its middle.
 const FAR: f64 = 2.0;
 
+/// Nothing is far that is nearer than this, in units of the mesh's size: products of four such lengths, which
+/// moments are, underflow.
+const LEAST: f64 = 1e-60;
+
 /// The generalised winding number of `mesh` around `point`: the sum of the solid angles of its
 /// triangles, as a share of the sphere. Clusters that are more than two radii away count by the
 /// first three terms of what they look like from afar.
@@ -39,7 +43,7 @@ pub fn winding_number<T: Coordinate>(
 fn share_from_afar(cluster: &Cluster, point: DVec3) -> Option<f64> {
     let way = cluster.center - point;
     let distance = way.length();
-    if distance <= FAR * cluster.radius {
+    if distance <= LEAST.max(FAR * cluster.radius) {
         return None;
     }
     Some(cluster.moments.seen(way / distance, distance) / (4.0 * PI))
