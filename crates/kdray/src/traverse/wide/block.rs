@@ -187,34 +187,11 @@ fn corner<S: Lanes>(simd: S, block: &TriangleBlock, place: usize) -> Vector<S> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::build::{BuildOptions, Preset};
     use crate::geometry::Ray;
-    use crate::layout::{Link, WideTree};
     use crate::primitives::{HitRule, TriangleMesh, intersect_triangle};
-    use crate::simd::{InstructionSet, Kernel};
-    use crate::tree::KdTree;
+    use crate::simd::InstructionSet;
+    use crate::traverse::wide::one_block::OneBlock;
     use rand::{RngExt, SeedableRng};
-    use std::marker::PhantomData;
-    use std::ops::ControlFlow;
-
-    /// What the filter says of the triangles of a tree's only block: candidates, and which are sure.
-    struct Filter<'a, T>(&'a WideTree, &'a Ray<3>, PhantomData<T>);
-
-    impl<T: Coordinate> Kernel for Filter<'_, T> {
-        type Output = [u64; 2];
-
-        #[inline(always)]
-        fn run<S: Lanes>(self, simd: S) -> [u64; 2] {
-            let Self(tree, ray, _) = self;
-            let mut aim = Aim::NONE;
-            if aim.set::<S, T>(simd, tree, ray).is_err() {
-                return [0; 2];
-            }
-            let leaf = Link::from_bits(tree.node(Link::ROOT).links()[0]);
-            let test = BlockTest::new::<T, true>(simd, tree.block(leaf, 0), &aim);
-            [test.candidates(&aim).to_bitmask(), test.sure(&aim).to_bitmask()]
-        }
-    }
 
     /// Eight triangles of that size within one around a centre; and rays at, and close to, their edges
     /// and corners. How many of the answers were doubtful, and how many were sure.
@@ -228,11 +205,7 @@ mod tests {
             })
             .collect();
         let mesh = TriangleMesh::from_soup(soup).unwrap();
-        let one_leaf = BuildOptions { leaf_size: 8, ..BuildOptions::preset(Preset::Best) };
-        let one_leaf = BuildOptions { strategy: crate::Strategy::Middle, ..one_leaf };
-        let go_on = |_| ControlFlow::Continue(());
-        let (tree, boxes) = KdTree::build_with_boxes(&mesh, &one_leaf, &go_on).unwrap();
-        let tree = WideTree::new(&tree, &boxes, &mesh, &one_leaf).unwrap().unwrap();
+        let one = OneBlock::of(&mesh);
         let mut counts = [0; 2];
         for round in 0..4000 {
             let id = round % 8;
@@ -242,17 +215,16 @@ mod tests {
             let target = near([0, 1, 2].map(|k| b[k] + s * (c[k] - b[k])), by * size);
             let origin = if round % 3 == 0 { near(a, 2.0 * size) } else { near(center, 3.0) };
             // Half of the origins are such that f32 hardly rounds them, for that blurs the filter, too.
-            let (space, grid) = (tree.space(), f64::from(1 << 20));
+            let (space, grid) = (one.tree.space(), f64::from(1 << 20));
             let short = space.point(origin).map(|x| (x * grid).round() / grid);
             let short = [0, 1, 2].map(|k| short[k] / space.scale() + space.center()[k]);
             let origin = if round % 2 == 0 { short } else { origin };
             let ray = Ray::through(origin, target);
             let ray = if round % 5 == 0 { ray.with_interval(0.0, 1.0) } else { ray };
             for set in InstructionSet::available() {
-                let [candidates, sure] = set.run(Filter(&tree, &ray, PhantomData::<T>));
+                let [candidates, sure] = one.filter(set, &ray);
                 for lane in 0..8 {
-                    let leaf = Link::from_bits(tree.node(Link::ROOT).links()[0]);
-                    let id = tree.block(leaf, 0).id(lane);
+                    let id = one.block().id(lane);
                     let hit = intersect_triangle(&mesh.corners(id), id, &ray, HitRule::Touching);
                     let (may, must) = (candidates >> lane & 1 == 1, sure >> lane & 1 == 1);
                     assert!(may || hit.is_none(), "{set} leaves out {hit:?} of {ray:?}, {size}");

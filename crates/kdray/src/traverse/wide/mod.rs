@@ -18,6 +18,8 @@ mod inside;
 mod line;
 mod located;
 mod nearest;
+#[cfg(test)]
+mod one_block;
 pub(crate) mod packet;
 mod rounding;
 mod search;
