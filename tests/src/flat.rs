@@ -11,6 +11,9 @@ use kdray::{Coordinate, Hit, Ray, TriangleMesh};
 /// How many triangles share a bounding sphere, and how many spheres a larger one.
 const BLOCK: usize = 16;
 
+/// What distances may lose whose squares underflow.
+const UNDERFLOW: f64 = 1e-150;
+
 /// Sizes whose products of three neither over- nor underflow. Spheres around meshes of other sizes are scaled.
 const SIZES: std::ops::Range<f64> = 1e-45..1e45;
 
@@ -171,7 +174,7 @@ impl Sphere {
         let center: [f64; 3] = std::array::from_fn(|k| 0.5 * (min[k] + max[k]));
         let reach = spheres.map(|(p, radius)| distance(p, center) + radius);
         let largest = center.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-        let radius = reach.fold(0.0, f64::max) * (1.0 + 1e-9) + 1e-12 * largest;
+        let radius = reach.fold(0.0, f64::max) * (1.0 + 1e-9) + 1e-12 * largest + UNDERFLOW;
         Self { center, radius }
     }
 }

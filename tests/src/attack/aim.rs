@@ -17,8 +17,6 @@ const FAR: f64 = 1e5;
 /// exact arithmetic: so they are few, and only at few triangles.
 const FARTHEST: f64 = 1e12;
 
-/// Coordinates of more are none that a ray should begin at.
-const LARGEST: f64 = 1e306;
 const FEW_TRIANGLES: usize = 1000;
 const FEW_RAYS: usize = 4;
 
@@ -104,7 +102,7 @@ impl<'a, T: Precision> Gunner<'a, T> {
         let count = if is_farthest { FEW_RAYS } else { SIZE };
         let mut point = |i: usize| self.point(at, turn as usize * SIZE + i, &mut random);
         let points: Vec<[f64; 3]> = (0..count).map(&mut point).collect();
-        let far = if is_farthest { FARTHEST } else { FAR.min(self.most()) };
+        let far = if is_farthest { FARTHEST } else { FAR.min(self.target.extent.most()) };
         let volley = self.aimed((from, far), share, &points, &mut random);
         let to_the_slow = number.is_multiple_of(SLOW);
         let volley = Volley { to_the_slow, ..volley };
@@ -229,19 +227,17 @@ impl<'a, T: Precision> Gunner<'a, T> {
     fn farthest(&self) -> f64 {
         let is_small = self.target.mesh.triangles().len() <= FEW_TRIANGLES;
         let farthest = if is_small { FARTHEST } else { FAR };
-        if farthest <= self.most() { farthest } else { FAR.min(self.most()) }
-    }
-
-    /// How many diagonals away f64 ends.
-    fn most(&self) -> f64 {
-        let size = self.target.extent.diagonal().max(self.target.extent.largest());
-        (LARGEST / size.max(1.0)).max(1.0)
+        if farthest <= self.target.extent.most() {
+            farthest
+        } else {
+            FAR.min(self.target.extent.most())
+        }
     }
 
     /// Packets of every kind, packets in split planes, and single rays of every kind.
     fn special(&self, kind: u64, scene: &Scene<T>, seed: u64, random: &mut Pcg64Mcg) -> Volley {
         let Target { mesh, extent, .. } = self.target;
-        let far = FAR.min(self.most());
+        let far = FAR.min(self.target.extent.most());
         let aimed = Archer::within(mesh, extent.ends(), seed).all_kinds(2, far);
         let mut packer = Packer::within(mesh, extent.ends(), &aimed, seed);
         let count = [1, 7, 64, 65, 130, 520][random.random_range(0..6)];

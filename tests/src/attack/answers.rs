@@ -3,7 +3,6 @@
 use super::{Attacked, Volley};
 use crate::flat::Flat;
 use kdray::primitives::{HitArrays, HitRule};
-use kdray::traverse::PacketKind;
 use kdray::{Hint, Hit, InstructionSet, Precision, Ray, Scene};
 
 /// Meshes of more triangles are too many to test each, and to be watched.
@@ -81,7 +80,7 @@ impl Answers {
 }
 
 impl Walked {
-    fn of<T: Precision>(scene: &Scene<T>, ray: &Ray) -> Self {
+    pub(super) fn of<T: Precision>(scene: &Scene<T>, ray: &Ray) -> Self {
         let shapes = scene.shapes();
         Self {
             closest: shapes.closest_hit(ray),
@@ -151,14 +150,4 @@ fn without_tree<T: Precision>(flat: &Flat<T>, rays: &[Ray], add: &mut impl FnMut
 /// Nothing hits a ray that cannot be traced: whoever tests triangles must look.
 fn checked<T: Precision>(flat: &Flat<T>, ray: &Ray, rule: HitRule) -> Vec<Hit> {
     if ray.check().is_ok() { flat.all_hits(ray, rule) } else { Vec::new() }
-}
-
-pub(super) fn in_watched_packets(scene: &Scene, rays: &[Ray], mut add: impl FnMut(&str, Said)) {
-    for kind in PacketKind::ALL {
-        let packets = scene.shapes().packets(kind);
-        let closest = packets.closest_hits(rays, &mut ());
-        add(&format!("watched {kind:?}, closest hit"), Said::Closest(closest));
-        let any = packets.any_hits(rays, &mut ());
-        add(&format!("watched {kind:?}, any hit"), Said::Any(any));
-    }
 }

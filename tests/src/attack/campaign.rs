@@ -166,7 +166,7 @@ impl Campaign<'_> {
             outcome.tally = std::mem::take(&mut outcome.tally).and(tally);
         }
         let visit = Visit { target, flat, scene: &scene, gunner, numbers, seed: self.seed };
-        let others = T::other_queries(&visit);
+        let others = visit.other_queries();
         if others.errors() > 0 && outcome.example.is_none() {
             outcome.example.clone_from(&others.example);
         }

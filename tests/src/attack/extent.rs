@@ -3,6 +3,9 @@
 use crate::Subject;
 use kdray::{Coordinate, TriangleMesh};
 
+/// Coordinates of more are none that a ray should begin at.
+const LARGEST: f64 = 1e306;
+
 /// The least and the greatest coordinates of triangles; of none, the origin.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Extent {
@@ -42,6 +45,16 @@ impl Extent {
     /// The largest coordinate.
     pub fn largest(&self) -> f64 {
         self.min.iter().chain(&self.max).fold(0.0, |most, x| most.max(x.abs()))
+    }
+
+    /// How many diagonals away f64 ends.
+    pub fn most(&self) -> f64 {
+        (LARGEST / self.diagonal().max(self.largest()).max(1.0)).max(1.0)
+    }
+
+    /// How near to a surface the last digits of a point, or of a normal, may decide.
+    pub fn doubt(&self) -> f64 {
+        1e-9 * self.diagonal() + 1e4 * f64::EPSILON * self.largest()
     }
 
     /// Whether a point is in it.

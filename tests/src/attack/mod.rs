@@ -12,6 +12,7 @@ mod attacked;
 pub mod campaign;
 pub mod case;
 mod extent;
+mod other_queries;
 pub mod placed;
 pub mod points;
 pub mod points_truth;

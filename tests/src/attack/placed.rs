@@ -10,7 +10,9 @@ use super::verdict::judge_hits;
 use super::{Tally, Target, Truth};
 use crate::flat::Flat;
 use crate::meshes::{Soup, mesh};
-use kdray::{BuildOptions, Hit, Instance, InstanceHit, InstancedScene, Ray, Scene};
+use kdray::{
+    BuildOptions, Coordinate, Hit, Instance, InstanceHit, InstancedScene, Precision, Ray, Scene,
+};
 use rand::RngExt;
 use rand::seq::SliceRandom;
 use rand_pcg::Pcg64Mcg;
@@ -40,33 +42,36 @@ impl Placing {
         Self { from, by, offset }
     }
 
-    fn corner(&self, p: [f32; 3]) -> [f64; 3] {
-        [0, 1, 2].map(|k| f64::from(p[self.from[k]]) * self.by[k] + self.offset[k])
+    /// A corner of the copy, if it rounds nothing.
+    fn corner<T: Coordinate>(&self, p: [T; 3]) -> Option<[T; 3]> {
+        let coordinate = |k: usize| {
+            let (x, by, offset) = (p[self.from[k]].to_f64(), self.by[k], self.offset[k]);
+            let there = T::from_f64(x * by + offset);
+            let is_exact = x * by / by == x
+                && is_difference_exact(x * by, -offset)
+                && there.to_f64() == x * by + offset;
+            is_exact.then_some(there)
+        };
+        Some([coordinate(0)?, coordinate(1)?, coordinate(2)?])
     }
 
     /// The copy of a mesh, if it rounds nothing.
-    fn copy(&self, soup: &Soup) -> Option<Soup> {
-        let corner = |&p: &[f32; 3]| {
-            let exact = self.corner(p);
-            let is_number = |k: usize| {
-                let back = exact[k] - self.offset[k];
-                f64::from(exact[k] as f32) == exact[k]
-                    && back == f64::from(p[self.from[k]]) * self.by[k]
-            };
-            (0..3).all(is_number).then(|| exact.map(|x| x as f32))
-        };
-        soup.iter()
-            .map(|[a, b, c]| Some([corner(a)?, corner(b)?, corner(c)?]))
-            .collect::<Option<Soup>>()
+    fn copy<T: Coordinate>(&self, soup: &Soup<T>) -> Option<Soup<T>> {
+        let triangle =
+            |&[a, b, c]: &[[T; 3]; 3]| Some([self.corner(a)?, self.corner(b)?, self.corner(c)?]);
+        soup.iter().map(triangle).collect()
     }
 
     /// The ray as the mesh sees it, if that rounds nothing.
     fn carried(&self, ray: &Ray) -> Option<Ray> {
-        let is_exact = (0..3).all(|k| is_difference_exact(ray.origin[k], self.offset[k]));
         let mut carried = *ray;
+        let mut is_exact = true;
         for k in 0..3 {
-            carried.origin[self.from[k]] = (ray.origin[k] - self.offset[k]) / self.by[k];
-            carried.direction[self.from[k]] = ray.direction[k] / self.by[k];
+            let (way, d, by) = (ray.origin[k] - self.offset[k], ray.direction[k], self.by[k]);
+            is_exact &= is_difference_exact(ray.origin[k], self.offset[k]);
+            is_exact &= way / by * by == way && d / by * by == d;
+            carried.origin[self.from[k]] = way / by;
+            carried.direction[self.from[k]] = d / by;
         }
         is_exact.then_some(carried)
     }
@@ -82,44 +87,29 @@ impl Placing {
 }
 
 /// Copies of a target, and the mesh of all their triangles.
-pub struct Copies<'a> {
-    flat: &'a Flat,
+pub struct Copies<'a, T: 'static = f32> {
+    flat: &'a Flat<T>,
     triangles: u32,
     placings: Vec<Placing>,
-    scene: InstancedScene,
-    all: Target,
+    scene: InstancedScene<T>,
+    all: Target<T>,
 }
 
-impl<'a> Copies<'a> {
+impl<'a, T: Precision> Copies<'a, T> {
     /// Copies of the mesh of `scene`; `None` if there are none that round nothing, or too many triangles.
-    pub fn new(scene: &Scene, flat: &'a Flat, random: &mut Pcg64Mcg) -> Option<Self> {
+    pub fn new(scene: &Scene<T>, flat: &'a Flat<T>, random: &mut Pcg64Mcg) -> Option<Self> {
         let mesh_of_one = scene.mesh();
         let triangles = mesh_of_one.triangles().len() as u32;
-        let soup: Soup = (0..triangles).map(|id| mesh_of_one.corners(id)).collect();
-        let largest =
-            soup.as_flattened().as_flattened().iter().fold(0.0_f32, |m, x| m.max(x.abs()));
-        let is_ordinary = (1e-30..1e30).contains(&largest);
-        if triangles as usize > FEW || !is_ordinary {
+        if triangles as usize > FEW {
             return None;
         }
-        let (mut placings, mut all) = (Vec::new(), Soup::new());
-        for _ in 0..20 * COPIES {
-            let mut placing = Placing::random(largest.into(), random);
-            // Few meshes can be moved; all can be turned.
-            if random.random() {
-                placing.offset = [0.0; 3];
-            }
-            if placings.len() < COPIES
-                && let Some(copy) = placing.copy(&soup)
-            {
-                placings.push(placing);
-                all.extend(copy);
-            }
-        }
+        let soup: Soup<T> = (0..triangles).map(|id| mesh_of_one.corners(id)).collect();
+        let (placings, all) = placed(&soup, random);
         let instances = placings.iter().enumerate().map(|(index, it)| it.instance(1 << index));
         let copies = InstancedScene::build(vec![scene.clone()], instances.collect()).ok()?;
         let all = Target::new("copies", mesh(all));
-        Some(Self { flat, triangles, placings, scene: copies, all })
+        let has_some = !placings.is_empty();
+        has_some.then_some(Self { flat, triangles, placings, scene: copies, all })
     }
 
     /// Shoots as many volleys at the copies that a mask shows.
@@ -145,7 +135,7 @@ impl<'a> Copies<'a> {
 
     /// What is touched is so wherever axes point; what is crossed depends on how the ray is moved, which is done
     /// in the space of each copy.
-    fn truth(&self, flat: &Flat, ray: &Ray, mask: u32) -> Option<Truth> {
+    fn truth(&self, flat: &Flat<T>, ray: &Ray, mask: u32) -> Option<Truth> {
         let is_seen = |copy: u32| mask >> copy & 1 == 1;
         let mut truth = Truth::of_those(flat, ray, |id| is_seen(id / self.triangles));
         truth.crossed.clear();
@@ -162,7 +152,7 @@ impl<'a> Copies<'a> {
         Some(truth)
     }
 
-    fn walked(&self, copies: &InstancedScene, ray: &Ray) -> Walked {
+    fn walked(&self, copies: &InstancedScene<T>, ray: &Ray) -> Walked {
         let as_of_all = |found: InstanceHit| {
             let primitive_id = found.instance_id * self.triangles + found.hit.primitive_id;
             Hit { primitive_id, ..found.hit }
@@ -177,14 +167,36 @@ impl<'a> Copies<'a> {
     }
 }
 
+/// Where copies are that round nothing, and the triangles of all of them.
+fn placed<T: Coordinate>(soup: &Soup<T>, random: &mut Pcg64Mcg) -> (Vec<Placing>, Soup<T>) {
+    let coordinates = soup.as_flattened().as_flattened().iter();
+    let largest = coordinates.fold(0.0_f64, |most, x| most.max(x.to_f64().abs()));
+    let (mut placings, mut all) = (Vec::new(), Soup::new());
+    for _ in 0..20 * COPIES {
+        let mut placing = Placing::random(largest, random);
+        // Few meshes can be moved; all can be turned.
+        if random.random() {
+            placing.offset = [0.0; 3];
+        }
+        if placings.len() < COPIES
+            && let Some(copy) = placing.copy(soup)
+        {
+            placings.push(placing);
+            all.extend(copy);
+        }
+    }
+    (placings, all)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::meshes::{boxes, torus};
+    use crate::meshes::{self, boxes, moved, torus};
     use crate::rays::random;
+    use kdray::TriangleMesh;
 
     /// Shoots at copies of which one is placed elsewhere than it should be, by `wrong`.
-    fn errors(mesh: kdray::TriangleMesh, wrong: f64) -> Tally {
+    fn errors<T: Precision>(mesh: TriangleMesh<T>, wrong: f64) -> Tally {
         let scene = Scene::build(mesh, &BuildOptions::default()).unwrap();
         let flat = Flat::new(scene.mesh());
         let mut random = random(4);
@@ -196,14 +208,23 @@ mod tests {
         copies.attack(8, &mut random)
     }
 
+    fn are_hit_where_they_are<T: Precision>(mesh: TriangleMesh<T>, size: f64) {
+        let right = errors(mesh.clone(), 0.0);
+        assert_eq!(right.errors(), 0, "{right:?}");
+        assert!(right.crossing > 100, "{right:?}");
+        let wrong = errors(mesh, 1e-6 * size);
+        assert!(wrong.errors() > 10, "{wrong:?}");
+    }
+
     #[test]
     fn copies_are_hit_where_they_are() {
         for mesh in [mesh(boxes(2)), torus(8, 6)] {
-            let right = errors(mesh.clone(), 0.0);
-            assert_eq!(right.errors(), 0, "{right:?}");
-            assert!(right.crossing > 100, "{right:?}");
-            let wrong = errors(mesh, 1e-6);
-            assert!(wrong.errors() > 10, "{wrong:?}");
+            are_hit_where_they_are(mesh, 1.0);
         }
+        for size in [1e-300, 1.0, 1e300] {
+            are_hit_where_they_are(moved::<f64>(&torus(8, 6), |p| p.map(|x| x * size)), size);
+        }
+        let utm = meshes::placed(&boxes(2), 1e-3, [691_607.123, 5_334_760.456, 520.789]);
+        are_hit_where_they_are(mesh(utm), 1.0);
     }
 }

@@ -7,7 +7,7 @@ use crate::flat::Flat;
 use crate::oracle::{exact_distance_squared, is_distance};
 use crate::points::beside;
 use crate::rays::Archer;
-use kdray::{ClosestPoint, Scene, Side};
+use kdray::{ClosestPoint, Coordinate, Precision, Scene, Side};
 use num_traits::Zero;
 use rand::RngExt;
 use rand_pcg::Pcg64Mcg;
@@ -18,7 +18,7 @@ const DISTANCE_ERROR: f64 = 1.0 / (1_u64 << 46) as f64;
 /// What a winding number may be off by, more than is documented.
 const WINDING_ERROR: f64 = 0.01;
 
-/// How far away the farthest points are, in diagonals.
+/// How far away most of the farthest points are, in diagonals; some are wherever f64 goes.
 const FAR: f64 = 1e6;
 
 /// A point, and what is asked about it.
@@ -51,7 +51,7 @@ pub struct Said {
 
 impl Question {
     /// The question of a number about a target.
-    pub fn new(target: &Target, random: &mut Pcg64Mcg) -> Self {
+    pub fn new<T: Coordinate>(target: &Target<T>, random: &mut Pcg64Mcg) -> Self {
         let mut archer = Archer::within(&target.mesh, target.extent.ends(), random.random());
         let on_edge = |(a, b): ([f64; 3], [f64; 3]), s: f64| {
             std::array::from_fn(|k| a[k] + s * (b[k] - a[k]))
@@ -65,7 +65,10 @@ impl Question {
                 on_edge((on_edge((corners[0], corners[1]), 0.5), corners[2]), random.random())
             }
             6 => archer.around(0.3),
-            _ => archer.point_afar(FAR),
+            _ => archer.point_afar(match random.random_range(0..4) {
+                0 => target.extent.most(),
+                _ => FAR.min(target.extent.most()),
+            }),
         };
         // One of the point and its six neighbours.
         let neighbour = random.random_range(0..7);
@@ -81,7 +84,7 @@ impl Question {
     }
 
     /// The point, or one next to it whose difference to the other is not rounded.
-    fn seen(&self, target: &Target) -> [f64; 3] {
+    fn seen<T: Coordinate>(&self, target: &Target<T>) -> [f64; 3] {
         let is_exact = (0..3).all(|k| is_difference_exact(self.other[k], self.point[k]));
         if is_exact { self.point } else { self.point.map(|x| target.rounded(x)) }
     }
@@ -89,7 +92,7 @@ impl Question {
 
 impl Said {
     /// The answers of a scene.
-    pub fn by(scene: &Scene, target: &Target, question: &Question) -> Self {
+    pub fn by<T: Precision>(scene: &Scene<T>, target: &Target<T>, question: &Question) -> Self {
         let Question { point, other, through: (id, [u, v], side) } = *question;
         let seen = question.seen(target);
         Self {
@@ -104,10 +107,10 @@ impl Said {
 }
 
 /// Asks as many questions, and counts what is wrong.
-pub fn attack(
-    scene: &Scene,
-    target: &Target,
-    flat: &Flat,
+pub fn attack<T: Precision>(
+    scene: &Scene<T>,
+    target: &Target<T>,
+    flat: &Flat<T>,
     count: u64,
     random: &mut Pcg64Mcg,
 ) -> Tally {
@@ -126,7 +129,12 @@ pub fn attack(
 }
 
 /// What is said of each of many points is what is said of it alone.
-fn compare_batch(tally: &mut Tally, scene: &Scene, points: &[[f64; 3]], alone: &[bool]) {
+fn compare_batch<T: Precision>(
+    tally: &mut Tally,
+    scene: &Scene<T>,
+    points: &[[f64; 3]],
+    alone: &[bool],
+) {
     let mut inside = vec![false; points.len()];
     scene.contains_each(points, &mut inside);
     for (point, (inside, alone)) in points.iter().zip(inside.iter().zip(alone)) {
@@ -138,10 +146,10 @@ fn compare_batch(tally: &mut Tally, scene: &Scene, points: &[[f64; 3]], alone: &
 }
 
 /// Counts what is wrong of the answers to a question.
-pub fn judge(
+pub fn judge<T: Coordinate>(
     tally: &mut Tally,
-    target: &Target,
-    truth: &PointTruth<'_>,
+    target: &Target<T>,
+    truth: &PointTruth<'_, T>,
     question: &Question,
     said: &Said,
 ) {
@@ -157,13 +165,14 @@ pub fn judge(
         return check(false, &|| "no closest point".to_owned());
     };
     let corners = target.mesh.corners(closest.primitive_id);
-    let error = DISTANCE_ERROR * farthest(question.point, &corners);
+    let smallest = f64::from_bits(1);
+    let error = DISTANCE_ERROR * farthest(question.point, &corners) + smallest;
     let is_on_surface = squared.is_zero();
     check(is_distance(closest.distance, error, &squared), &|| format!("squared: {squared}"));
     check((closest.distance == 0.0) == is_on_surface, &|| format!("on it: {is_on_surface}"));
     // The place is that triangle's, and as far away as is said: rounded to f64, all of them.
     let largest = target.extent.largest();
-    let place_error = error + 8.0 * f64::EPSILON * largest + f64::from_bits(8);
+    let place_error = error + 8.0 * f64::EPSILON * largest + 8.0 * smallest;
     let off = exact_distance_squared(closest.point, &corners);
     check(is_distance(0.0, place_error, &off), &|| "the place is off the triangle".to_owned());
     let way = (0..3).map(|k| closest.point[k] - question.point[k]).fold(0.0, f64::hypot);
@@ -179,7 +188,7 @@ pub fn judge(
     check(said.signed == Some(signed), &|| format!("signed distance: {signed:e}"));
     if let Some(winding) = truth.winding_number(question.point).filter(|_| !is_on_surface) {
         // So near to a surface that the sum may have it on either side.
-        let is_leaping = closest.distance <= 1e-9 * largest;
+        let is_leaping = closest.distance <= target.extent.doubt();
         let is_right = is_leaping || (said.winding - winding).abs() < WINDING_ERROR;
         check(is_right, &|| format!("winding number: {winding}"));
     }
@@ -190,28 +199,28 @@ pub fn judge(
     let along_normal = if side == Side::Front { -1.0 } else { 1.0 };
     if let Some(thickness) = truth.thickness(id, weights, along_normal) {
         let is_right = match (thickness, said.thickness) {
-            (Some(a), Some(b)) => (a - b).abs() <= 1e-6 * a + 1e-9 * largest,
+            (Some(a), Some(b)) => (a - b).abs() <= 1e-6 * a + target.extent.doubt(),
             (a, b) => a.is_none() && b.is_none(),
         };
         check(is_right, &|| format!("thickness: {thickness:?}"));
     }
 }
 
-fn farthest(point: [f64; 3], corners: &[[f32; 3]; 3]) -> f64 {
-    let away = |p: &[f32; 3]| (0..3).map(|k| f64::from(p[k]) - point[k]).fold(0.0, f64::hypot);
+fn farthest<T: Coordinate>(point: [f64; 3], corners: &[[T; 3]; 3]) -> f64 {
+    let away = |p: &[T; 3]| (0..3).map(|k| p[k].to_f64() - point[k]).fold(0.0, f64::hypot);
     corners.iter().map(away).fold(0.0, f64::max)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::meshes;
+    use crate::meshes::{moved, torus};
     use crate::rays::random;
-    use kdray::BuildOptions;
+    use kdray::{BuildOptions, TriangleMesh};
 
     /// How many answers are wrong once they are spoilt.
-    fn wrong(spoil: impl Fn(&mut Said)) -> u64 {
-        let target = Target::new("torus", meshes::torus(10, 7));
+    fn wrong<T: Precision>(mesh: TriangleMesh<T>, spoil: impl Fn(&mut Said)) -> u64 {
+        let target = Target::new("torus", mesh);
         let flat = Flat::new(&target.mesh);
         let scene = Scene::build(target.mesh.clone(), &BuildOptions::default()).unwrap();
         let truth = PointTruth::new(&target, &flat);
@@ -225,15 +234,20 @@ mod tests {
         tally.misjudged
     }
 
+    fn wrong_in_both(spoil: impl Fn(&mut Said)) -> [u64; 2] {
+        let tiny = |p: [f64; 3]| p.map(|x| 1e-300 * x);
+        [wrong(torus(10, 7), &spoil), wrong(moved::<f64>(&torus(10, 7), tiny), &spoil)]
+    }
+
     #[test]
     fn every_wrong_answer_is_found() {
-        assert_eq!(wrong(|_| {}), 0);
+        assert_eq!(wrong_in_both(|_| {}), [0; 2]);
         type Spoil = fn(&mut Said);
         let spoils: [Spoil; 9] = [
             |said| said.closest = None,
             |said| said.closest.iter_mut().for_each(|it| it.distance *= 1.0 + 1e-12),
             |said| said.closest.iter_mut().for_each(|it| it.primitive_id ^= 1),
-            |said| said.closest.iter_mut().for_each(|it| it.point[0] += 1e-12),
+            |said| said.closest.iter_mut().for_each(|it| it.point[0] += 1e-12 * it.point[1]),
             |said| said.inside = !said.inside,
             |said| said.signed = said.signed.map(f64::abs),
             |said| said.winding += 0.02,
@@ -241,8 +255,8 @@ mod tests {
             |said| said.thickness = said.thickness.map(|t| 1.001 * t),
         ];
         for (index, spoil) in spoils.into_iter().enumerate() {
-            let found = wrong(spoil);
-            assert!(found > 20, "{index}: {found}");
+            let found = wrong_in_both(spoil);
+            assert!(found.iter().all(|&found| found > 20), "{index}: {found:?}");
         }
     }
 }

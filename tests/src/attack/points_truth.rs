@@ -7,25 +7,26 @@ use crate::flat::Flat;
 use crate::oracle::{exact_distance_squared, exact_triangle_hit};
 use glam::DVec3;
 use kdray::primitives::HitRule;
-use kdray::{Interval, Ray};
+use kdray::{Coordinate, Interval, Ray};
+use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::{FromPrimitive, One, Signed, ToPrimitive};
+use num_traits::{One, Signed, ToPrimitive};
 
 /// Triangles of more are too many to sum over for each point.
 const FEW: usize = 2000;
 
-/// Differences, products and sums of a solid angle have fewer than thirty roundings.
+/// Differences, lengths, products and sums of a solid angle have fewer than thirty roundings.
 const ROUNDINGS: f64 = 32.0 / (1_u64 << 53) as f64;
 
 /// What is known of a mesh.
-pub struct PointTruth<'a> {
-    target: &'a Target,
-    flat: &'a Flat,
+pub struct PointTruth<'a, T: 'static = f32> {
+    target: &'a Target<T>,
+    flat: &'a Flat<T>,
 }
 
-impl<'a> PointTruth<'a> {
+impl<'a, T: Coordinate> PointTruth<'a, T> {
     /// The truth about a target.
-    pub fn new(target: &'a Target, flat: &'a Flat) -> Self {
+    pub fn new(target: &'a Target<T>, flat: &'a Flat<T>) -> Self {
         Self { target, flat }
     }
 
@@ -35,8 +36,6 @@ impl<'a> PointTruth<'a> {
     pub fn distance_squared(&self, point: [f64; 3]) -> Option<BigRational> {
         let mut nearest: Option<(BigRational, f64)> = None;
         let mut last = None;
-        let scale = self.flat.scale();
-        let square = BigRational::from_f64(scale)?.pow(2);
         self.flat.each_near(point, |corners, _| {
             let reach = nearest.as_ref().map_or(f64::INFINITY, |(_, reach)| *reach);
             // Some meshes have the same triangle again and again.
@@ -48,9 +47,7 @@ impl<'a> PointTruth<'a> {
             if nearest.as_ref().is_some_and(|(least, _)| *least <= exact) {
                 return reach;
             }
-            // The square may be beyond all f64 where the distance is not.
-            let distance = (&exact * &square).to_f64().unwrap_or(f64::INFINITY).sqrt() / scale;
-            let reach = distance * (1.0 + 1e-9) + f64::MIN_POSITIVE;
+            let reach = root(&exact) * (1.0 + 1e-9) + f64::MIN_POSITIVE;
             nearest = Some((exact, reach));
             reach
         });
@@ -69,22 +66,20 @@ impl<'a> PointTruth<'a> {
         ((number - 0.5).abs() > 0.02).then_some(number > 0.5)
     }
 
-    /// The sum of all solid angles, as a share of the sphere (van Oosterom and Strackee 1983); `None` if it is
-    /// too long, or the point so near a triangle that rounding may put it on the other side.
+    /// The sum of all solid angles, as a share of the sphere; `None` if it is too long, or the point so near a
+    /// triangle, or so far away, that rounding may put it on the other side.
     pub fn winding_number(&self, point: [f64; 3]) -> Option<f64> {
-        let mesh = &self.target.mesh;
-        let count = mesh.triangles().len();
-        let angle = |id: u32| {
-            let [a, b, c] =
-                mesh.corners(id).map(|p| DVec3::from(p.map(f64::from)) - DVec3::from(point));
-            let [x, y, z] = [a, b, c].map(DVec3::length);
-            let volume = a.dot(b.cross(c));
-            let facing = x * y * z + a.dot(b) * z + b.dot(c) * x + c.dot(a) * y;
-            let error = ROUNDINGS * x * y * z;
-            (volume.abs() > error || facing > error).then(|| volume.atan2(facing))
-        };
+        let count = self.target.mesh.triangles().len();
+        let point = DVec3::from(point) * self.flat.scale();
+        let angle = |id: u32| half_angle(self.scaled(id).map(|p| p - point));
         let sum = || (0..count as u32).map(angle).sum::<Option<f64>>();
         Some((count <= FEW).then(sum)?? / std::f64::consts::TAU)
+    }
+
+    /// The corners of a triangle, in units of which products neither over- nor underflow.
+    fn scaled(&self, id: u32) -> [DVec3; 3] {
+        let corner = |p: [T; 3]| DVec3::from(p.map(T::to_f64)) * self.flat.scale();
+        self.target.mesh.corners(id).map(corner)
     }
 
     /// Whether nothing is between two points; `None` if their difference is not an f64.
@@ -111,29 +106,25 @@ impl<'a> PointTruth<'a> {
     /// How far it is from a point of a triangle to the next one behind it, on the given side of its normal;
     /// `None` where the answer hangs on the last digits of the point or the normal.
     pub fn thickness(&self, id: u32, [u, v]: [f64; 2], along_normal: f64) -> Option<Option<f64>> {
-        let corners = |id: u32| self.target.mesh.corners(id).map(|p| DVec3::from(p.map(f64::from)));
-        let unit_normal = |[a, b, c]: [DVec3; 3]| {
-            let normal = (b - a).cross(c - a);
-            let is_fat = normal.length() > 1e-3 * (b - a).length() * (c - a).length();
-            is_fat.then(|| normal.normalize())
-        };
-        let [a, b, c] = corners(id);
-        let direction = unit_normal([a, b, c])? * along_normal;
+        let direction = unit_normal(self.scaled(id))? * along_normal;
+        let [a, b, c] = self.target.mesh.corners(id).map(|p| DVec3::from(p.map(T::to_f64)));
         let start = a + u * (b - a) + v * (c - a);
-        let ray = Ray { interval: Interval::LINE, ..Ray::new(start, direction) };
+        let scale = self.flat.scale();
+        // Such that t is an ordinary number.
+        let ray = Ray { interval: Interval::LINE, ..Ray::new(start, direction / scale) };
         let held = self.target.mesh.corners(id);
         let is_other = |id: u32| {
             let others = self.target.mesh.corners(id);
             !held.iter().all(|corner| others.contains(corner))
         };
         let truth = Truth::of_those(self.flat, &ray, is_other);
-        let doubt = 1e-9 * self.target.extent.largest();
+        let doubt = self.target.extent.doubt() * scale;
         let is_doubtful = truth.touched.iter().any(|hit| {
-            let normal = unit_normal(corners(hit.id));
+            let normal = unit_normal(self.scaled(hit.id));
             hit.t.abs() < doubt || normal.is_none_or(|normal| normal.dot(direction).abs() < 1e-3)
         });
         let behind = truth.touched.iter().map(|hit| hit.t).filter(|&t| t > 0.0);
-        let nearest = behind.min_by(f64::total_cmp);
+        let nearest = behind.min_by(f64::total_cmp).map(|t| t / scale);
         (!truth.is_close && !is_doubtful).then_some(nearest)
     }
 }
@@ -146,10 +137,36 @@ pub(super) fn is_difference_exact(a: f64, b: f64) -> bool {
     difference.is_finite() && (a - a_again) + (b_again - b) == 0.0
 }
 
+/// Half the solid angle of a triangle whose corners are seen there (van Oosterom and Strackee 1983).
+fn half_angle(corners: [DVec3; 3]) -> Option<f64> {
+    let [a, b, c] = corners.map(unit);
+    let (volume, facing) = (a.dot(b.cross(c)), 1.0 + a.dot(b) + b.dot(c) + c.dot(a));
+    (volume.abs() > ROUNDINGS || facing > ROUNDINGS).then(|| volume.atan2(facing))
+}
+
+/// The normal of a triangle that is not so thin that rounding turns it.
+fn unit_normal([a, b, c]: [DVec3; 3]) -> Option<DVec3> {
+    let normal = unit(b - a).cross(unit(c - a));
+    (normal.length() > 1e-3).then(|| normal.normalize())
+}
+
+/// The same direction of length one, of a vector of any length but zero.
+fn unit(v: DVec3) -> DVec3 {
+    (v / v.abs().max_element()).normalize()
+}
+
+/// The square root, nearly: also of what is beyond all f64.
+fn root(square: &BigRational) -> f64 {
+    let half = (square.numer().bits() as i32 - square.denom().bits() as i32) / 2;
+    let ordinary = square * BigRational::from(BigInt::from(4)).pow(-half);
+    let root = ordinary.to_f64().unwrap_or(f64::INFINITY).sqrt();
+    root * 2.0_f64.powi(half / 2) * 2.0_f64.powi(half - half / 2)
+}
+
 /// A distance that is not above that of the triangle's box.
-fn distance_to_box(point: [f64; 3], corners: &[[f32; 3]; 3]) -> f64 {
+fn distance_to_box<T: Coordinate>(point: [f64; 3], corners: &[[T; 3]; 3]) -> f64 {
     let off = |k: usize| {
-        let [a, b, c] = corners.map(|p| f64::from(p[k]));
+        let [a, b, c] = corners.map(|p| p[k].to_f64());
         (a.min(b).min(c) - point[k]).max(point[k] - a.max(b).max(c)).max(0.0)
     };
     off(0).hypot(off(1)).hypot(off(2)) * (1.0 - 1e-12)

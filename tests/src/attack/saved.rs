@@ -1,11 +1,12 @@
 //! Tree files: whole ones answer as the scene does, damaged ones are refused.
 
 use super::answers::{Answers, Other, Said, Walked};
-use super::verdict::Judge;
-use super::{Tally, Volley};
+use super::verdict::compare;
+use super::{Attacked, Tally, Volley};
+use crate::flat::Flat;
 use kdray::memory::AlignedBytes;
 use kdray::primitives::HitRule;
-use kdray::{FileError, Scene};
+use kdray::{FileError, Precision, Scene};
 use rand::RngExt;
 use rand_pcg::Pcg64Mcg;
 use std::convert::Infallible;
@@ -13,15 +14,14 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
 /// A way to read a file.
-type Read = fn(&[u8]) -> Result<Scene, FileError>;
+type Read<T> = fn(&[u8]) -> Result<Scene<T>, FileError>;
 
 /// Saves a scene, reads it in both ways, and puts a volley to what comes back.
-pub fn attack(scene: &Scene, judge: &Judge<'_>, volley: &Volley) -> Tally {
+pub fn attack<T: Attacked>(scene: &Scene<T>, flat: &Flat<T>, volley: &Volley) -> Tally {
     let mut tally = Tally::default();
     let bytes = saved(scene);
-    let ways: [(&str, Read); 2] = [("loaded", load), ("opened", open)];
-    let mut answers = Answers::of(scene, judge.flat, volley);
-    answers.others.clear();
+    let ways: [(&str, Read<T>); 2] = [("loaded", load), ("opened", open)];
+    let walked: Vec<Walked> = volley.rays.iter().map(|ray| Walked::of(scene, ray)).collect();
     for (name, read) in ways {
         tally.files += 1;
         match read(&bytes) {
@@ -29,23 +29,24 @@ pub fn attack(scene: &Scene, judge: &Judge<'_>, volley: &Volley) -> Tally {
                 if saved(&again) != bytes {
                     misread(&mut tally, || format!("{name}, and saved once more, it differs"));
                 }
-                let Answers { rays, others } = Answers::of(&again, judge.flat, volley);
-                let name = |what: &str| format!("{name}, {what}");
-                answers.others.extend(told(&rays, &name));
-                let others = others.into_iter();
-                answers.others.extend(others.map(|it| Other { name: name(&it.name), ..it }));
+                let Answers { rays, others } = Answers::of(&again, flat, volley);
+                for Other { name: what, said } in told(&rays).into_iter().chain(others) {
+                    compare(&mut tally, volley, &walked, &format!("{name}, {what}"), &said);
+                }
             }
             Err(error) => misread(&mut tally, || format!("{name}: {error}")),
         }
     }
-    // The rays themselves were judged before: only that all say the same is of interest.
-    let compared = judge.tally(volley, &answers);
-    Tally { differing: compared.differing, example: compared.example, ..Tally::default() }
-        .and(tally)
+    tally
 }
 
 /// Damages a file as often, and counts how often that is not an error.
-pub fn damage(scene: &Scene, volley: &Volley, count: u64, random: &mut Pcg64Mcg) -> Tally {
+pub fn damage<T: Precision>(
+    scene: &Scene<T>,
+    volley: &Volley,
+    count: u64,
+    random: &mut Pcg64Mcg,
+) -> Tally {
     let mut tally = Tally::default();
     let whole = saved(scene);
     for _ in 0..count {
@@ -61,13 +62,13 @@ pub fn damage(scene: &Scene, volley: &Volley, count: u64, random: &mut Pcg64Mcg)
             continue;
         }
         tally.files += 1;
-        let loaded = catch_unwind(|| load(&bytes).map(|_| ()));
+        let loaded = catch_unwind(|| load::<T>(&bytes).map(|_| ()));
         if !matches!(loaded, Ok(Err(_))) {
             misread(&mut tally, || format!("damaged at {place}, loaded: {loaded:?}"));
         }
         // Not all damage is seen by whoever trusts the file; but nothing may panic.
         let asked = AssertUnwindSafe(|| {
-            if let Ok(scene) = open(&bytes) {
+            if let Ok(scene) = open::<T>(&bytes) {
                 for ray in &volley.rays {
                     let _ = (scene.closest_hit(ray), scene.any_hit(ray), scene.count(ray));
                 }
@@ -86,8 +87,8 @@ fn misread(tally: &mut Tally, what: impl FnOnce() -> String) {
 }
 
 /// What the leaf walk says, as a kernel says it.
-fn told(rays: &[Walked], name: &dyn Fn(&str) -> String) -> Vec<Other> {
-    let other = |what: &str, said| Other { name: name(what), said };
+fn told(rays: &[Walked]) -> Vec<Other> {
+    let other = |name: &str, said| Other { name: name.to_owned(), said };
     let crossed = rays.iter().map(|ray| ray.crossed.clone()).collect();
     let touched = rays.iter().map(|ray| ray.touched.clone()).collect();
     vec![
@@ -99,7 +100,7 @@ fn told(rays: &[Walked], name: &dyn Fn(&str) -> String) -> Vec<Other> {
 }
 
 /// The bytes of a scene's file.
-pub fn saved(scene: &Scene) -> Vec<u8> {
+pub fn saved<T: Precision>(scene: &Scene<T>) -> Vec<u8> {
     let mut bytes = Vec::new();
     let write = |part: &[u8]| {
         bytes.extend_from_slice(part);
@@ -111,10 +112,10 @@ pub fn saved(scene: &Scene) -> Vec<u8> {
     }
 }
 
-fn load(bytes: &[u8]) -> Result<Scene, FileError> {
+fn load<T: Precision>(bytes: &[u8]) -> Result<Scene<T>, FileError> {
     Scene::load(Arc::new(AlignedBytes::from(bytes)))
 }
 
-fn open(bytes: &[u8]) -> Result<Scene, FileError> {
+fn open<T: Precision>(bytes: &[u8]) -> Result<Scene<T>, FileError> {
     Scene::open(Arc::new(AlignedBytes::from(bytes)))
 }

@@ -59,6 +59,7 @@ fn scaled() -> Vec<Target> {
 fn in_f64() -> Vec<Target<f64>> {
     let of = |name: &str, soup: Soup<f64>| Target::new(name, meshes::mesh(soup));
     let (sphere, torus) = (|| soup_of(&meshes::sphere(8)), || soup_of(&meshes::torus(16, 10)));
+    let (small, few) = (|| soup_of(&meshes::sphere(4)), || meshes::soup(12, [0.0; 3], 1.0, 9));
     let utm = [691_607.123, 5_334_760.456, 520.789];
     let placed = |soup: &Soup, scale: f64| meshes::placed(soup, scale, [0.0; 3]);
     let bent = |[x, y, z]: [f64; 3]| [0.1 * x + 0.3, y / 3.0, 0.7 * z - 0.2 * x];
@@ -74,6 +75,15 @@ fn in_f64() -> Vec<Target<f64>> {
         of("f64: sphere, size 1e-100", placed(&sphere(), 1e-100)),
         of("f64: torus, size 1e100", placed(&torus(), 1e100)),
         of("f64: sphere, size 1e300", placed(&sphere(), 1e300)),
+        of("f64: sphere of denormals", placed(&sphere(), 1e-315)),
+        of(
+            "f64: soup around a sphere, size 1e-200",
+            [placed(&small(), 1e-200), placed(&few(), 1.0)].concat(),
+        ),
+        of(
+            "f64: soup in a sphere, size 1e200",
+            [placed(&small(), 1e200), placed(&few(), 1.0)].concat(),
+        ),
         of("f64: sphere, 1e6 x 1 x 1e-6", by(sphere(), &|[x, y, z]| [1e6 * x, y / 3.0, 1e-6 * z])),
         of("f64: fan of needles", by(soup_of(&meshes::spindle(100, 1e-5)), &bent)),
         of("f64: soup", by(meshes::soup(300, [0.0; 3], 1.0, 5), &bent)),
@@ -152,6 +162,6 @@ mod tests {
     fn what_should_be_closed_is() {
         assert!(closed().iter().chain(&scaled()).all(|target| target.is_closed));
         assert!(awkward().iter().filter(|target| target.is_closed).count() <= 1);
-        assert_eq!(in_f64().iter().filter(|target| !target.is_closed).count(), 4);
+        assert_eq!(in_f64().iter().filter(|target| !target.is_closed).count(), 6);
     }
 }

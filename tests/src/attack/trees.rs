@@ -1,16 +1,15 @@
 //! Whether trees and hits are the same to the last byte, however many threads there are and however often.
 
 use super::verdict::bits;
-use super::{Attacked, settings};
-use kdray::{BuildOptions, Hit, InstructionSet, Ray, Scene, TriangleMesh};
+use super::{saved, settings};
+use kdray::{BuildOptions, Hit, InstructionSet, Precision, Ray, Scene, TriangleMesh};
 use rayon::ThreadPoolBuilder;
-use std::fmt::{self, Write};
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// How many threads are tried, each with a build of its own; one of them twice.
 const THREADS: [usize; 4] = [1, 2, 3, 1];
 
-/// Trees of more triangles take too long to be built so often, and the wide ones to be written as text.
+/// Trees of more triangles take too long to be built so often.
 const FEW: usize = 20_000;
 
 /// With how many of the settings trees of so many triangles are built again and again.
@@ -23,7 +22,7 @@ pub fn settings_tried(triangles: usize) -> u64 {
 ///
 /// # Panics
 /// If a build is refused, or threads cannot be started.
-pub fn differing<T: Attacked>(
+pub fn differing<T: Precision>(
     mesh: &TriangleMesh<T>,
     options: &BuildOptions,
     rays: &[Ray],
@@ -44,29 +43,14 @@ pub fn differing<T: Attacked>(
     (differ as u64, prints.len() as u64)
 }
 
-/// A hash of all bytes of both trees.
-fn fingerprint_of_tree<T: Attacked>(scene: &Scene<T>) -> u64 {
+/// A hash of all bytes of the tree file: of both trees and the mesh.
+fn fingerprint_of_tree<T: Precision>(scene: &Scene<T>) -> u64 {
     let mut hasher = DefaultHasher::new();
-    if let Some(bytes) = T::saved(scene) {
-        hasher.write(&bytes);
-        return hasher.finish();
-    }
-    let tree = scene.tree();
-    for corner in [tree.bounds().min, tree.bounds().max] {
-        corner.map(f32::to_bits).hash(&mut hasher);
-    }
-    for (index, node) in tree.nodes().iter().enumerate() {
-        // A node's text has all its bits: splits are finite, and zeros are written with their signs.
-        let _ = write!(Text(&mut hasher), "{:?}", node.kind());
-        tree.leaf_primitives(index as u32).hash(&mut hasher);
-    }
-    if scene.mesh().triangles().len() <= FEW {
-        let _ = write!(Text(&mut hasher), "{:?}", scene.wide_tree());
-    }
+    hasher.write(&saved::saved(scene));
     hasher.finish()
 }
 
-fn fingerprint_of_hits<T: Attacked>(scene: &Scene<T>, rays: &[Ray]) -> u64 {
+fn fingerprint_of_hits<T: Precision>(scene: &Scene<T>, rays: &[Ray]) -> u64 {
     let (mut closest, mut any) = (vec![None; rays.len()], vec![false; rays.len()]);
     scene.par_closest_hits(rays, &mut closest);
     scene.par_any_hits(rays, &mut any);
@@ -77,16 +61,6 @@ fn fingerprint_of_hits<T: Attacked>(scene: &Scene<T>, rays: &[Ray]) -> u64 {
         .for_each(|it| it.hash(&mut hasher));
     any.hash(&mut hasher);
     hasher.finish()
-}
-
-/// Hashes what is written.
-struct Text<'a>(&'a mut DefaultHasher);
-
-impl fmt::Write for Text<'_> {
-    fn write_str(&mut self, text: &str) -> fmt::Result {
-        self.0.write(text.as_bytes());
-        Ok(())
-    }
 }
 
 #[cfg(test)]

@@ -191,7 +191,13 @@ fn judge_closest(tally: &mut Tally, ray: &Ray, truth: &[TrueHit], walked: &Walke
 }
 
 /// What another kernel said, against the leaf walk, to the last bit.
-fn compare(tally: &mut Tally, volley: &Volley, walked: &[Walked], name: &str, said: &Said) {
+pub(super) fn compare(
+    tally: &mut Tally,
+    volley: &Volley,
+    walked: &[Walked],
+    name: &str,
+    said: &Said,
+) {
     for (index, (ray, walked)) in volley.rays.iter().zip(walked).enumerate() {
         let same = match said {
             Said::Closest(hits) => same(hits[index].as_slice(), walked.closest.as_slice()),
