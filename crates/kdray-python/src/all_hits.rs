@@ -1,10 +1,11 @@
 //! All hits of each ray, and how many they are.
 
-use crate::cast::{Cast, Room};
-use crate::closest_hit::BLOCK;
+use crate::block::BLOCK;
+use crate::cast::Cast;
 use crate::columns::{Columns, Real};
 use crate::job::{Control, each_part};
 use crate::rays::Rays;
+use crate::room::Room;
 use crate::tree::{Tree, for_scene};
 use pyo3::PyResult;
 use std::ops::Range;
@@ -59,18 +60,15 @@ fn wave_of_hits<F: Real>(
         hits: Columns::new(&tree.places),
     };
     let mut blocks: Vec<Block<F>> = wave.clone().step_by(BLOCK).map(empty).collect();
-    let room = Room::default();
-    let scratch = || (Vec::new(), room.beside());
+    let scratch = <(Vec<_>, Room)>::default;
     let parts = blocks.iter_mut().collect();
     each_part(control, parts, scratch, |(read, room), block: &mut Block<F>| {
         rays.read(block.rays.clone(), read)?;
         let Block { counts, hits, .. } = block;
         counts.resize(read.len(), 0);
-        for_scene!(tree, scene => scene.all(read, room, |index, hit| {
-            if counts[index] < limit {
-                counts[index] += 1;
-                hits.push(&tree.places, &hit);
-            }
+        for_scene!(tree, scene => scene.all(read, limit, room, |index, hit| {
+            counts[index] += 1;
+            hits.push(&tree.places, &hit);
         }));
         control.add(read.len());
         Ok(())

@@ -1,14 +1,9 @@
 //! What the scenes of the library have in common: answers to rays, block by block.
 
 use crate::columns::{Part, Real};
-use crate::pace::Pace;
-use crate::packet::{self, Packet};
-use kdray::geometry::Common;
-use kdray::primitives::HitArrays;
+use crate::room::Room;
 use kdray::query::Precision;
-use kdray::{Coordinate, Hit, InstanceHit, InstancedScene, Ray, Scene};
-use std::ops::Range;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use kdray::{Hit, InstanceHit, InstancedScene, Ray, Scene};
 
 /// Something that rays are cast at.
 pub(crate) trait Cast: Sync {
@@ -21,38 +16,9 @@ pub(crate) trait Cast: Sync {
     /// How many surfaces each ray crosses.
     fn counts(&self, rays: &[Ray], counts: &mut [usize]);
 
-    /// Gives `found` all hits in order, with the index of their ray: those of the first ray first.
-    fn all(&self, rays: &[Ray], room: &mut Room, found: impl FnMut(usize, Found));
-}
-
-/// Room to work in, from block to block.
-#[derive(Debug, Default)]
-pub(crate) struct Room {
-    pace: Arc<Mutex<Pace>>,
-    closest: Vec<Option<Hit>>,
-    packet: Packet,
-    of_packet: HitArrays,
-    any: Vec<bool>,
-    /// All hits of all rays in the order in which rays were done, and where those of each ray are.
-    all: Vec<Hit>,
-    places: Vec<Range<usize>>,
-}
-
-impl Room {
-    /// Room of another thread of the same call.
-    pub(crate) fn beside(&self) -> Self {
-        Self { pace: Arc::clone(&self.pace), ..Self::default() }
-    }
-
-    /// What the rays share, if they are to go in packets. There are none for f64 meshes.
-    fn common<T: Coordinate>(&self, rays: &[Ray]) -> Option<Common> {
-        let common = if T::FITS_TREE { packet::common(rays) } else { None };
-        common.filter(|_| self.pace().tries_packets())
-    }
-
-    fn pace(&self) -> MutexGuard<'_, Pace> {
-        self.pace.lock().unwrap_or_else(PoisonError::into_inner)
-    }
+    /// Gives `found` the first hits of each ray in order, `limit` at most, with the index of their ray: those of the
+    /// first ray first.
+    fn all(&self, rays: &[Ray], limit: usize, room: &mut Room, found: impl FnMut(usize, Found));
 }
 
 /// A hit.
@@ -102,11 +68,18 @@ impl<T: Precision> Cast for Scene<T> {
         Self::counts(self, rays, counts);
     }
 
-    fn all(&self, rays: &[Ray], room: &mut Room, mut found: impl FnMut(usize, Found)) {
+    fn all(
+        &self,
+        rays: &[Ray],
+        limit: usize,
+        room: &mut Room,
+        mut found: impl FnMut(usize, Found),
+    ) {
         let Room { all, places, .. } = room;
         all.clear();
         places.resize(rays.len(), 0..0);
         self.each_all_hits(rays, |index, hits| {
+            let hits = &hits[..hits.len().min(limit)];
             places[index] = all.len()..all.len() + hits.len();
             all.extend_from_slice(hits);
         });
@@ -131,11 +104,11 @@ impl<T: Precision> Cast for InstancedScene<T> {
         rays.iter().zip(counts).for_each(|(ray, count)| *count = self.count(ray));
     }
 
-    fn all(&self, rays: &[Ray], _: &mut Room, mut found: impl FnMut(usize, Found)) {
+    fn all(&self, rays: &[Ray], limit: usize, _: &mut Room, mut found: impl FnMut(usize, Found)) {
         let mut hits = Vec::new();
         for (index, ray) in rays.iter().enumerate() {
             self.all_hits_into(ray, &mut hits);
-            hits.iter().for_each(|&hit| found(index, hit.into()));
+            hits.iter().take(limit).for_each(|&hit| found(index, hit.into()));
         }
     }
 }

@@ -8,6 +8,7 @@
 
 mod all_hits;
 mod any_hit;
+mod block;
 mod build;
 mod cast;
 mod closest_hit;
@@ -26,6 +27,7 @@ mod points;
 mod pool;
 mod rays;
 mod render;
+mod room;
 mod rows;
 mod stats;
 mod surface;

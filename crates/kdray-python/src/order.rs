@@ -65,12 +65,12 @@ fn places(common: Common, rays: &[Ray], places: &mut Vec<[f32; 2]>) {
         return places.extend(rays.iter().map(place));
     }
     let directions = || rays.iter().map(|ray| to_f32(ray.direction.into()));
-    let sum: Vec3 = directions().step_by(SAMPLE).sum();
+    let sum: Vec3 = directions().step_by(SAMPLE).filter(|direction| direction.is_finite()).sum();
     let [ahead, a, b] = frame(sum.into()).map(to_f32);
     let mut are_ahead = true;
     places.extend(directions().map(|direction| {
         let depth = direction.dot(ahead);
-        are_ahead &= depth > 0.0 && depth * depth > LEAST_AHEAD * direction.length_squared();
+        are_ahead &= is_ahead(depth, direction);
         let scale = 1.0 / depth;
         [a.dot(direction) * scale, b.dot(direction) * scale]
     }));
@@ -78,6 +78,13 @@ fn places(common: Common, rays: &[Ray], places: &mut Vec<[f32; 2]>) {
         places.clear();
         places.extend(directions().map(on_octahedron));
     }
+}
+
+/// Whether a direction is well ahead, by how far it leads there. One that is not finite is nowhere: it says nothing
+/// about the others.
+fn is_ahead(depth: f32, direction: Vec3) -> bool {
+    let is_ahead = depth > 0.0 && depth * depth > LEAST_AHEAD * direction.length_squared();
+    is_ahead || !direction.is_finite()
 }
 
 fn to_f32(vector: DVec3) -> Vec3 {
@@ -113,7 +120,7 @@ impl Grid {
         let along = longest_axis(places);
         let mut min = [f32::INFINITY; 2];
         let mut max = [f32::NEG_INFINITY; 2];
-        for &place in places.iter().step_by(SAMPLE) {
+        for place in sample(places) {
             let place = turned(along, place);
             for axis in 0..2 {
                 min[axis] = min[axis].min(place[axis]);
@@ -124,7 +131,8 @@ impl Grid {
         let cells = places.len().div_ceil(CELL) as f32;
         // A grid that is narrower than one of its cells is a line of them.
         let side = (width * height / cells).sqrt().max(width.max(height) / cells);
-        let scale = if side > 0.0 && side < f32::INFINITY { 1.0 / side } else { 0.0 };
+        // No spread, one so small that its inverse is too large, and one too large make a single cell.
+        let scale = Some(1.0 / side).filter(|scale| scale.is_finite()).unwrap_or(0.0);
         let [columns, rows] = [width, height].map(|length| (length * scale) as u32 + 1);
         Self { along, min, scale, columns, rows }
     }
@@ -141,15 +149,20 @@ impl Grid {
 
 /// The axis along which places spread most, as a cosine and a sine.
 fn longest_axis(places: &[[f32; 2]]) -> [f32; 2] {
-    let sample = || places.iter().step_by(SAMPLE);
-    let count = sample().count() as f32;
-    let mean = sample().fold([0.0; 2], |[a, b], [x, y]| [a + x / count, b + y / count]);
-    let [xx, xy, yy] = sample().fold([0.0_f32; 3], |[xx, xy, yy], [x, y]| {
+    let count = sample(places).count() as f32;
+    let mean = sample(places).fold([0.0; 2], |[a, b], [x, y]| [a + x / count, b + y / count]);
+    let [xx, xy, yy] = sample(places).fold([0.0_f32; 3], |[xx, xy, yy], [x, y]| {
         let (x, y) = (x - mean[0], y - mean[1]);
         [xx + x * x, xy + x * y, yy + y * y]
     });
     let (sin, cos) = ((2.0 * xy).atan2(xx - yy) / 2.0).sin_cos();
     [cos, sin]
+}
+
+/// Some of the places, those that are finite.
+fn sample(places: &[[f32; 2]]) -> impl Iterator<Item = [f32; 2]> {
+    let sample = places.iter().step_by(SAMPLE).copied();
+    sample.filter(|place| place.iter().all(|x| x.is_finite()))
 }
 
 fn turned([cos, sin]: [f32; 2], [x, y]: [f32; 2]) -> [f32; 2] {

@@ -19,11 +19,11 @@ pub(crate) struct Pace {
 }
 
 impl Pace {
-    /// Whether the next block goes in packets.
-    pub(crate) fn tries_packets(&mut self) -> bool {
-        let tries = self.batches == 0;
+    /// Takes the turn of the next block: whether it goes in packets.
+    pub(crate) fn take_turn(&mut self) -> bool {
+        let in_packets = self.batches == 0;
         self.batches = self.batches.saturating_sub(1);
-        tries
+        in_packets
     }
 
     /// Learns what the packets of so many rays were worth.

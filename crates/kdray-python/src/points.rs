@@ -12,7 +12,7 @@ use std::ops::Range;
 pub(crate) const BLOCK: usize = 256;
 
 /// The same where they are answered in turns.
-const TURNS: usize = 1024;
+const BLOCK_IN_TURNS: usize = 1024;
 
 /// Points of a caller.
 #[derive(Debug)]
@@ -91,7 +91,7 @@ pub(crate) fn each_block<A: Copy + Default + Send>(
     control: &Control,
     answer: impl Fn(&[[f64; 3]], &mut [A]) + Send + Sync,
 ) -> PyResult<Vec<A>> {
-    by_blocks(points, TURNS, control, answer)
+    by_blocks(points, BLOCK_IN_TURNS, control, answer)
 }
 
 fn by_blocks<A: Copy + Default + Send>(

@@ -33,8 +33,11 @@ impl<'a> Rays<'a> {
         let (t_min, t_max) = (t_min.rows("t_min")?, t_max.rows("t_max")?);
         let lengths = [lines.lengths(), [t_min.len(), t_max.len()]];
         if lengths.as_flattened().iter().any(|&length| length != t_min.len()) {
-            let reason = "origins, directions, t_min and t_max are not of as many rays";
-            return Err(ArgumentError::new_err(reason));
+            let reason = "are not of as many rays";
+            return Err(ArgumentError::new_err(format!(
+                "{}, t_min, t_max: {reason}",
+                lines.name()
+            )));
         }
         Ok(Self { lines, t_min, t_max, lenient })
     }
@@ -52,9 +55,17 @@ impl<'a> Rays<'a> {
         let first = range.start;
         self.fill(range, rays);
         match rays.iter().position(is_suspect).filter(|_| !self.lenient) {
-            Some(suspect) => check(&rays[suspect..], first + suspect),
+            Some(suspect) => self.check(&rays[suspect..], first + suspect),
             None => Ok(()),
         }
+    }
+
+    /// Refuses the first that cannot be traced; `first` is the index of the first of the rays.
+    #[cold]
+    fn check(&self, rays: &[Ray], first: usize) -> PyResult<()> {
+        let refused = |i, error| self.lines.refused(first + i, error);
+        let mut rays = rays.iter().enumerate();
+        rays.try_for_each(|(i, ray)| ray.check().map_err(|error| refused(i, error)))
     }
 
     /// Room for rays that is there already is not cleared.
@@ -81,6 +92,14 @@ impl<'a> Lines<'a> {
         })
     }
 
+    /// The arguments that they are.
+    fn name(&self) -> &'static str {
+        match self {
+            Self::Together(_) => "rays",
+            Self::Apart(..) => "origins, directions",
+        }
+    }
+
     /// How many origins and directions there are.
     fn lengths(&self) -> [usize; 2] {
         match self {
@@ -101,6 +120,22 @@ impl<'a> Lines<'a> {
                 });
             }
         }
+    }
+
+    /// That a ray cannot be traced, by the name of the argument that is to blame.
+    fn refused(&self, index: usize, error: RayError) -> PyErr {
+        let [origin, direction] = match self {
+            Self::Together(_) => ["rays: the origin", "rays: the direction"],
+            Self::Apart(..) => ["origins: that", "directions: that"],
+        };
+        ArgumentError::new_err(match error {
+            RayError::Origin => format!("{origin} of ray {index} is not finite"),
+            RayError::Direction => format!("{direction} of ray {index} is not finite"),
+            RayError::ZeroDirection => format!("{direction} of ray {index} is zero"),
+            _ => {
+                format!("t_min, t_max: a bound of ray {index} is NaN; use infinity for an open end")
+            }
+        })
     }
 }
 
@@ -127,22 +162,4 @@ fn is_suspect(ray: &Ray) -> bool {
     let (origin, direction) = (sum(ray.origin), sum(ray.direction));
     let is_plain = origin + direction < f64::INFINITY && direction > 0.0;
     !is_plain || ray.interval.t_min.is_nan() || ray.interval.t_max.is_nan()
-}
-
-/// Refuses the first that cannot be traced; `first` is the index of the first of the rays.
-#[cold]
-fn check(rays: &[Ray], first: usize) -> PyResult<()> {
-    let mut rays = rays.iter().enumerate();
-    rays.try_for_each(|(i, ray)| ray.check().map_err(|error| refused(first + i, error)))
-}
-
-/// That a ray cannot be traced, by the name of the argument that is to blame.
-fn refused(index: usize, error: RayError) -> PyErr {
-    let reason = match error {
-        RayError::Origin => "origins: that of ray {} is not finite",
-        RayError::Direction => "directions: that of ray {} is not finite",
-        RayError::ZeroDirection => "directions: that of ray {} is zero",
-        _ => "t_min, t_max: a bound of ray {} is NaN; use infinity for an open end",
-    };
-    ArgumentError::new_err(reason.replace("{}", &index.to_string()))
 }

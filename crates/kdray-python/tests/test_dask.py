@@ -143,20 +143,21 @@ def test_a_worker_that_is_killed_loses_nothing(tree):
         n_workers=2, threads_per_worker=1, dashboard_address=None
     ) as cluster, distributed.Client(cluster) as client:
         lazy = da.from_array(rays, chunks=(1000, 6)).map_blocks(held, dtype=rays.dtype)
-        future = client.compute(kdray.dask.closest_hit(tree, lazy)["t"])
-        victim = with_answers(client)
+        answers = kdray.dask.closest_hit(tree, lazy)["t"]
+        future = client.compute(answers)
+        victim = with_answers(client, answers.name)
         os.kill(client.run(os.getpid, workers=[victim])[victim], signal.SIGKILL)
         distributed.Event("killed").set()
         t = future.result(timeout=120)
     np.testing.assert_array_equal(t, kdray.Scene.mmap(tree).closest_hit(rays).t)
 
 
-def with_answers(client):
-    """A worker that has answers, for which it waits."""
+def with_answers(client, name):
+    """A worker that has blocks of the array of that name, for which it waits."""
     deadline = time.monotonic() + 60
     while time.monotonic() < deadline:
         for worker, keys in client.has_what().items():
-            if keys:
+            if any(name in str(key) for key in keys):
                 return worker
         time.sleep(0.01)
     raise AssertionError("no task was finished")

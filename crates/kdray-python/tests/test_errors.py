@@ -30,6 +30,10 @@ def test_rays(cube, query):
     fails(wrong, "origins", ask, [INF, 0, 0], x)
     fails(wrong, "directions", ask, x, [0, NAN, 0])
     fails(wrong, "directions", ask, x, [0, 0, 0])
+    fails(wrong, "rays: the origin of ray 1 is not finite", ask, [[1.0] * 6, [NAN, 0, 0, 1, 0, 0]])
+    fails(wrong, "rays: the direction of ray 0 is not finite", ask, [0, 0, 0, 1, INF, 0])
+    fails(wrong, "rays: the direction of ray 0 is zero", ask, [1.0, 0, 0, 0, 0, 0])
+    fails(wrong, "t_min, t_max: a bound of ray 0", ask, [1.0] * 6, t_max=NAN)
     fails(wrong, "t_min", ask, x, x, t_min=NAN)
     fails(wrong, "t_min", ask, x, x, t_max=NAN)
     fails(wrong, "threads", ask, x, x, threads=0)
@@ -59,7 +63,9 @@ def test_a_bad_ray_among_many_is_named(cube, query):
     for count in (100, 5000):
         rays = random_rays(count)
         rays[count - 7, 4] = NAN
-        fails(kdray.ArgumentError, f"directions: that of ray {count - 7} is", getattr(cube, query), rays)
+        bad = f"of ray {count - 7} is not finite"
+        fails(kdray.ArgumentError, f"rays: the direction {bad}", getattr(cube, query), rays)
+        fails(kdray.ArgumentError, f"directions: that {bad}", getattr(cube, query), rays[:, :3], rays[:, 3:])
 
 
 def test_bad_rays_may_miss(cube):

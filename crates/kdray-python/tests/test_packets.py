@@ -36,31 +36,88 @@ def one_line(rng):
     return np.array([[0.1, 0.2, -4.0]]), np.broadcast_to([0.0, 0.0, 1.0], (COUNT, 3))
 
 
+SHARE_OF_HITS = {camera: (0.2, 0.3), all_around: (0.99, 1), sun: (0.2, 0.4), one_line: (0.99, 1)}
+"""Least and most of the rays that hit something."""
+
+
+def tiny(rng):
+    """So close to each other that the inverse of a distance is infinite."""
+    return np.arange(COUNT)[:, np.newaxis] * 1e-42 * [1, 0, 0]
+
+
+def huge(rng):
+    """Too far for f32, where places are told apart."""
+    return rng.normal(size=(COUNT, 3)) * 10.0 ** rng.integers(-50, 50, (COUNT, 1))
+
+
+def in_line(rng):
+    """On one line, from place to place."""
+    return rng.uniform(-0.5, 0.5, (COUNT, 1)) * [1, 1, 0]
+
+
+def not_finite(rng):
+    """Most are no places."""
+    places = rng.uniform(-0.5, 0.5, (COUNT, 3))
+    places[rng.random(COUNT) < 0.9] = [np.nan, np.inf, -np.inf]
+    return places
+
+
 def alone(query, rays, **bounds):
-    parts = [slice(first, first + ALONE) for first in range(0, COUNT, ALONE)]
-    chosen = lambda part: {name: np.broadcast_to(it, COUNT)[part] for name, it in bounds.items()}  # noqa: E731
+    parts = [slice(first, first + ALONE) for first in range(0, len(rays), ALONE)]
+    chosen = lambda part: {name: np.broadcast_to(it, len(rays))[part] for name, it in bounds.items()}  # noqa: E731
     return [query(rays[part], invalid="miss", **chosen(part)) for part in parts]
 
 
 @pytest.mark.parametrize("make", [camera, all_around, sun, one_line])
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
-def test_answers_are_those_of_rays_alone(make, dtype):
+@pytest.mark.parametrize("invalid", [False, True])
+@pytest.mark.parametrize("geometries", [1, 2])
+def test_answers_are_those_of_rays_alone(make, dtype, invalid, geometries):
     rng = np.random.default_rng(3)
-    first, second = sphere(40), sphere(12)
-    scene = kdray.Scene(*first)
-    scene.add_triangles(second[0] * dtype(0.5), second[1])
+    scene = scene_of(geometries)
     lines = np.broadcast_arrays(*make(rng))
     rays = np.concatenate(lines, axis=1).astype(dtype)
-    rays[::777, 3 + rng.integers(3)] = np.nan
+    # What rays share stays shared.
+    column = 0 if make is sun else 3 + rng.integers(3)
+    if invalid:
+        rays[::777, column] = np.nan
+    least, most = SHARE_OF_HITS[make]
+    assert least - 1 / 777 <= scene.closest_hit(rays, invalid="miss").hit.mean() <= most
     for bounds in ({}, {"t_min": 0.5}, {"t_min": rng.uniform(-1, 2, COUNT), "t_max": rng.uniform(2, 9, COUNT)}):
-        hits = scene.closest_hit(rays, invalid="miss", **bounds)
-        assert 0 < np.count_nonzero(hits.hit) < COUNT
-        expected = alone(scene.closest_hit, rays, **bounds)
-        for name in ("t", "u", "v", "primitive_id", "geometry_id", "front"):
-            together = np.concatenate([getattr(part, name) for part in expected])
-            np.testing.assert_array_equal(getattr(hits, name), together, err_msg=name)
-        found = scene.any_hit(rays, invalid="miss", **bounds)
-        np.testing.assert_array_equal(found, np.concatenate(alone(scene.any_hit, rays, **bounds)))
+        assert_as_alone(scene, rays, **bounds)
+
+
+@pytest.mark.parametrize("make", [tiny, huge, in_line, not_finite])
+@pytest.mark.parametrize("parallel", [False, True])
+def test_each_ray_has_one_answer_wherever_it_is(make, parallel):
+    origins, directions = np.array([[0, 0, -4.0]]), np.array([[0, 0, 1.0]])
+    if parallel:
+        origins = origins + make(np.random.default_rng(5))
+    else:
+        directions = directions + make(np.random.default_rng(5))
+    rays = np.concatenate(np.broadcast_arrays(origins, directions), axis=1)[:5000]
+    for geometries in (1, 2):
+        assert_as_alone(scene_of(geometries), rays)
+
+
+def scene_of(geometries):
+    """A ball, or one in another."""
+    scene = kdray.Scene(*sphere(40))
+    if geometries == 2:
+        vertices, faces = sphere(12)
+        scene.add_triangles(vertices * np.float32(0.5), faces)
+    return scene
+
+
+def assert_as_alone(scene, rays, **bounds):
+    hits = scene.closest_hit(rays, invalid="miss", **bounds)
+    assert hits.hit.any()
+    expected = alone(scene.closest_hit, rays, **bounds)
+    for name in ("t", "u", "v", "primitive_id", "geometry_id", "front"):
+        together = np.concatenate([getattr(part, name) for part in expected])
+        np.testing.assert_array_equal(getattr(hits, name), together, err_msg=name)
+    found = scene.any_hit(rays, invalid="miss", **bounds)
+    np.testing.assert_array_equal(found, np.concatenate(alone(scene.any_hit, rays, **bounds)))
 
 
 def test_rays_may_be_one_array_or_two():
