@@ -27,7 +27,7 @@ eyes = scene.closest_hit(above, [0, 0, -1]).position + [0, 0, 1.6]  # on streets
 out, turn = np.sqrt((np.arange(96) + 0.5) / 96), np.arange(96) * np.pi * (3 - np.sqrt(5))
 dome = np.stack([out * np.cos(turn), out * np.sin(turn), np.sqrt(1 - out**2)], axis=-1)
 sky = 1 - scene.any_hit(eyes[..., None, :], dome, invalid="miss").mean(axis=-1)
-mast = eyes[eyes[..., 2] == np.nanmax(eyes[..., 2])].mean(axis=0) + [0, 0, 10]
+mast = eyes[eyes[..., 2] > np.nanmax(eyes[..., 2]) - 0.01].mean(axis=0) + [0, 0, 10]
 seen = scene.visible(eyes, mast, invalid="miss")
 
 figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4.4), sharey=True, layout="constrained")

@@ -8,8 +8,8 @@ use std::path::PathBuf;
 #[derive(Clone, Debug, clap::Args)]
 pub(crate) struct SceneArgs {
     /// The scene: an OBJ, PLY, STL, OFF, glTF or GLB file, also with .gz or .zst behind; `-` reads
-    /// standard input and needs --format. Without it, the built-in scene. `query`, `stats` and
-    /// `validate` also take a tree file of `build`
+    /// standard input and needs --format. Without it, the built-in scene. Only `query`, `stats` and
+    /// `validate` take a tree file of `build`, too
     #[arg(value_name = "SCENE")]
     pub(crate) scene: Option<PathBuf>,
     /// The format, whatever the file's name and content tell; without it they decide

@@ -41,7 +41,7 @@ Example: the same from a tree that was saved by `build`
   kdray query bunny.kdray --trusted --rays rays.npy --out hits.npz
 
 Example: is the mesh closed? Rays from outside cross it an even number of times
-  kdray query bunny.ply --rays rays.csv --mode count --out - | sort | uniq -c
+  kdray query bunny.ply --rays rays.csv --mode count --out - | tail -n +2 | sort | uniq -c
 
 Example: which points are inside
   kdray query bunny.ply --points points.npy --mode contains --out inside.npz")]

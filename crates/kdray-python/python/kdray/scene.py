@@ -40,6 +40,16 @@ class Scene(RayQueries, PointQueries, Rendering, Saving):
     array([ True, False])
 
     The tree is built by ``build``, or by the first query; nothing can be added any more then.
+
+    Arguments of all queries, where they have them:
+
+    - ``t_min``, ``t_max``: the part of each ray that counts, in lengths of its direction; numbers, or arrays that
+      are broadcast with the rays.
+    - ``mask``: bits; only instances that share one are seen.
+    - ``invalid``: ``"raise"`` refuses rays and points that are not finite, or directions of zeros; ``"miss"``
+      has them hit nothing.
+    - ``threads``: how many; without it those of the environment variable ``KDRAY_THREADS``, or all.
+    - ``progress``: ``True`` for a bar by tqdm, or a function that is told what is done and of how much.
     """
 
     def __init__(
