@@ -1,5 +1,6 @@
 //! One file for each bug that was fixed, named for what it was.
 
+mod angles_beside_corners;
 mod areas_that_vanish;
 mod crossings_where_rays_begin;
 mod hits_of_dead_rays;

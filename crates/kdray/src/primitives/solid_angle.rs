@@ -2,8 +2,12 @@
 
 use super::range::in_range;
 use crate::exact::side_of_plane;
+use glam::DVec3;
 use std::cmp::Ordering;
 use std::f64::consts::PI;
+
+/// Products of three shorter lengths may underflow.
+const LEAST: f64 = 1e-100;
 
 /// The solid angle that a triangle covers seen from `point`, as a share of the whole sphere:
 /// positive from behind, negative from the front, zero in the triangle's plane.
@@ -12,7 +16,12 @@ use std::f64::consts::PI;
 /// leaps from a half to minus a half, the side that the point is on is decided without rounding.
 pub fn solid_angle(point: [f64; 3], corners: [[f64; 3]; 3]) -> f64 {
     let ([p, a, b, c], _) = in_range([point, corners[0], corners[1], corners[2]]);
-    let [a, b, c] = [a - p, b - p, c - p];
+    let mut ways = [a - p, b - p, c - p];
+    if ways.iter().any(|way| way.length_squared() < LEAST * LEAST) {
+        // How far away corners are does not matter.
+        ways = ways.map(unit);
+    }
+    let [a, b, c] = ways;
     let (la, lb, lc) = (a.length(), b.length(), c.length());
     let volume = a.dot(b.cross(c));
     let below = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
@@ -26,6 +35,12 @@ pub fn solid_angle(point: [f64; 3], corners: [[f64; 3]; 3]) -> f64 {
         Ordering::Less => share.abs(),
         Ordering::Greater => -share.abs(),
     }
+}
+
+/// The same direction of length one, of a vector of any length; of none, zero.
+#[cold]
+fn unit(way: DVec3) -> DVec3 {
+    (way / way.abs().max_element().max(f64::MIN_POSITIVE)).normalize_or_zero()
 }
 
 #[cfg(test)]
