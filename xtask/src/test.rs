@@ -6,7 +6,7 @@ use crate::steps::Steps;
 /// Runs every test. Examples are run by a test of the crate `kdray-tests`.
 pub(crate) fn run() -> Result<(), String> {
     let mut steps = Steps::new();
-    steps.cargo("tests and examples", "test --workspace --test * --examples --benches", &[])?;
+    steps.cargo("tests and examples", "test --workspace --test * --examples", &[])?;
     let others = "test --workspace --exclude kdray --lib --bins";
     steps.cargo("tests of parts, other crates", others, &[])?;
     steps.cargo("tests of the documentation", "test --workspace --doc", &[])?;
