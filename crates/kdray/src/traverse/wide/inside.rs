@@ -143,7 +143,7 @@ mod tests {
     fn check<T: Coordinate>(size: f64, center: [f64; 3], is_short: bool) -> [usize; 4] {
         let mut random = Pcg64::seed_from_u64(3);
         let mut counts = [0; 4];
-        for _ in 0..60 {
+        for _ in 0..6 {
             let soup = triangles(size, center, is_short, &mut random);
             let soup = soup.into_iter().map(|corners| corners.map(|p| p.map(T::from_f64)));
             let mesh = TriangleMesh::<T>::from_soup(soup.collect::<Vec<_>>()).unwrap();
@@ -184,14 +184,14 @@ mod tests {
         for size in [1.0, 0.1, 1e-2, 1e-3, 1e-5] {
             let here = [0.25, -0.5, 0.125];
             for short in [check::<f32>(size, [0.0; 3], true), check::<f64>(size, here, true)] {
-                assert!(short[..3].iter().all(|&count| count > 1000), "{size}: {short:?}");
+                assert!(short[..3].iter().all(|&count| count > 100), "{size}: {short:?}");
                 sure += short[3];
             }
             // Of numbers with all digits the corners are sure to be on the surface.
             let all_digits = [check::<f32>(size, here, false), check::<f64>(size, here, false)];
             let far = check::<f64>(size, [5e5, 5.4e6, 100.0], false);
-            assert!(all_digits.iter().chain([&far]).all(|it| it[0] > 10_000), "{size}: {far:?}");
+            assert!(all_digits.iter().chain([&far]).all(|it| it[0] > 1000), "{size}: {far:?}");
         }
-        assert!(sure > 1000, "{sure}");
+        assert!(sure > 100, "{sure}");
     }
 }
