@@ -51,7 +51,7 @@ impl Accumulator {
         if low == 0 || c.mantissa == 0 {
             return;
         }
-        let product = multiply(low, c.mantissa);
+        let product = product(limbs(low), [c.mantissa]);
         let shift = a.exponent + b.exponent + c.exponent - LOWEST;
         let negative = a.negative ^ b.negative ^ c.negative;
         self.add_shifted(product, shift as usize, negative);
@@ -81,7 +81,7 @@ impl ShortAccumulator {
         let negative = (a < 0) ^ (b < 0) ^ (c < 0);
         debug_assert!([a, b, c].iter().all(|x| x.unsigned_abs() < 1 << 120));
         let [a, b, c] = [a, b, c].map(|x| limbs(x.unsigned_abs()));
-        let product: [u64; 6] = product(product::<2, 4>(a, b), c);
+        let product: [u64; 6] = product(product::<2, 2, 4>(a, b), c);
         add_at(if negative { &mut self.subtracted } else { &mut self.added }, 0, &product);
         self.used = 0..6;
     }
@@ -242,26 +242,23 @@ fn limbs(x: u128) -> [u64; 2] {
     [x as u64, (x >> 64) as u64]
 }
 
-/// The product of N limbs and two, which has M = N + 2.
+/// The product of M limbs and N.
 #[inline]
-fn product<const N: usize, const M: usize>(a: [u64; N], b: [u64; 2]) -> [u64; M] {
-    const { assert!(M == N + 2) };
-    let mut product = [0; M];
+fn product<const M: usize, const N: usize, const SUM: usize>(
+    a: [u64; M],
+    b: [u64; N],
+) -> [u64; SUM] {
+    const { assert!(SUM == M + N) };
+    let mut product = [0; SUM];
     for (j, b) in b.into_iter().enumerate() {
         let mut carry = 0;
         for (i, a) in a.into_iter().enumerate() {
             let sum = u128::from(a) * u128::from(b) + u128::from(product[i + j]) + carry;
             (product[i + j], carry) = (sum as u64, sum >> 64);
         }
-        product[N + j] = carry as u64;
+        product[M + j] = carry as u64;
     }
     product
-}
-
-fn multiply(a: u128, b: u64) -> [u64; 3] {
-    let low = u128::from(a as u64) * u128::from(b);
-    let high = (a >> 64) * u128::from(b) + (low >> 64);
-    [low as u64, high as u64, (high >> 64) as u64]
 }
 
 #[cfg(test)]
