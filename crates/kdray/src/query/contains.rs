@@ -5,7 +5,7 @@ use crate::exact::is_on_triangle;
 use crate::geometry::Ray;
 use crate::primitives::Closure;
 use crate::traverse::CellWalk;
-use crate::traverse::wide::{Crossed, Inside, NoAim, search_along};
+use crate::traverse::wide::{Crossed, Inside, NoAim, search_along, way_out};
 
 impl<T: Precision> Scene<T> {
     /// Whether `point` is inside the mesh or on its surface. Never so for a point that is not
@@ -128,9 +128,8 @@ impl<T: Precision> Scene<T> {
         }
     }
 
-    /// A ray from the point to the nearest face of the box around the mesh, and on; `None` if the
-    /// point is outside of it. Not quite parallel to an axis, for triangles often are, and those that
-    /// a ray runs in need the exact test. Its t are some units of the tree.
+    /// A ray from the point to the nearest face of the box around the mesh, and on ([`way_out`]); `None` if the
+    /// point is outside of it. Its t are some units of the tree.
     pub(super) fn way_out(&self, point: [f64; 3]) -> Option<Ray> {
         let (bounds, space) = (self.tree().bounds(), self.mesh().tree_space());
         let in_tree = space.point(point);
@@ -142,9 +141,6 @@ impl<T: Precision> Scene<T> {
             [(axis, -1.0, in_tree[axis] - min), (axis, 1.0, max - in_tree[axis])]
         });
         let (axis, sign, _) = ways.min_by(|a, b| a.2.total_cmp(&b.2))?;
-        let mut direction = [1.0 / 29.0; 3];
-        direction[axis] = sign;
-        direction[(axis + 1) % 3] = 1.0 / 53.0;
-        Some(Ray::new(point, direction.map(|d| d / space.scale())))
+        Some(Ray::new(point, way_out(axis, sign).map(|d| d / space.scale())))
     }
 }

@@ -11,6 +11,15 @@ use crate::primitives::TriangleMesh;
 use crate::simd::Lanes;
 use fearless_simd::prelude::*;
 
+/// A direction that leads out along an axis, in units of the tree. Not quite parallel to it, for triangles often are,
+/// and those that a ray runs in need the exact test.
+pub(crate) fn way_out(axis: usize, sign: f64) -> [f64; 3] {
+    let mut direction = [1.0 / 29.0; 3];
+    direction[axis] = sign;
+    direction[(axis + 1) % 3] = 1.0 / 53.0;
+    direction
+}
+
 /// Whether a closed mesh holds the ray's origin: inside, by the parity of crossings, or on its surface.
 ///
 /// A triangle that holds the origin is met at t = 0, so that it is a candidate, and never a sure one: its T is
@@ -98,16 +107,8 @@ mod tests {
 
     type Corners = [[f64; 3]; 3];
 
-    /// Directions of `Scene::way_out`, in units of the tree.
     fn ways_out() -> impl Iterator<Item = [f64; 3]> {
-        (0..3).flat_map(|axis| {
-            [-1.0, 1.0].map(|sign| {
-                let mut direction = [1.0 / 29.0; 3];
-                direction[axis] = sign;
-                direction[(axis + 1) % 3] = 1.0 / 53.0;
-                direction
-            })
-        })
+        (0..3).flat_map(|axis| [-1.0, 1.0].map(|sign| way_out(axis, sign)))
     }
 
     /// The point a + s (b − a) + t (c − a).

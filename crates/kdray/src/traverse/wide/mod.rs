@@ -35,7 +35,7 @@ pub(crate) use any::Any;
 pub(crate) use batch::search_along_each;
 pub(crate) use closest::Closest;
 pub(crate) use count::Count;
-pub(crate) use inside::{Crossed, Inside};
+pub(crate) use inside::{Crossed, Inside, way_out};
 pub(crate) use line::NoAim;
 pub(crate) use located::Located;
 pub(crate) use nearest::closest_point;
