@@ -12,6 +12,19 @@ pub(crate) trait Lanes: Simd {
     /// lane numbers of four bits, the first lowest. Which of the places were chosen, a bit each;
     /// lanes behind as many hold anything.
     fn pack(self, chosen: mask32x8<Self>, places: u32, lists: Lists<Self>) -> (u32, Lists<Self>);
+
+    /// Does a step of a kernel, `work`, which must be `#[inline(always)]`: in place, or as a function that all
+    /// kernels share where vectors are arrays of numbers. There a step is thousands of bytes of code, and the
+    /// kernels, with a copy of each step in each, would take most of the time of compiling this crate.
+    #[inline(always)]
+    fn step<R>(self, work: impl FnOnce() -> R) -> R {
+        if Self::HAS_VECTORS { work() } else { as_a_function(work) }
+    }
+}
+
+#[inline(never)]
+fn as_a_function<R>(work: impl FnOnce() -> R) -> R {
+    work()
 }
 
 /// What is packed.

@@ -76,6 +76,19 @@ impl Aim {
         tree: &WideTree,
         ray: &Ray<3>,
     ) -> Result<(), NoAim> {
+        simd.step(
+            #[inline(always)]
+            || self.set_ray::<S, T>(simd, tree, ray),
+        )
+    }
+
+    #[inline(always)]
+    fn set_ray<S: Lanes, T: Coordinate>(
+        &mut self,
+        simd: S,
+        tree: &WideTree,
+        ray: &Ray<3>,
+    ) -> Result<(), NoAim> {
         let reach = f64::from(tree.reach());
         // In a space of its own the tree is larger, and t with it, so that the direction stays.
         let (origin, scale) = if T::FITS_TREE {

@@ -60,6 +60,18 @@ impl<S: Lanes> BlockTest<S> {
         block: &TriangleBlock,
         aim: &Aim,
     ) -> Self {
+        simd.step(
+            #[inline(always)]
+            || Self::numbers::<T, EXACT>(simd, block, aim),
+        )
+    }
+
+    #[inline(always)]
+    fn numbers<T: Coordinate, const EXACT: bool>(
+        simd: S,
+        block: &TriangleBlock,
+        aim: &Aim,
+    ) -> Self {
         let (a, b, c) = (corner(simd, block, 0), corner(simd, block, 1), corner(simd, block, 2));
         let (e1, e2) = (difference(b, a), difference(c, a));
         let (origin, direction) = (splat(simd, &aim.origin), splat(simd, &aim.direction));
@@ -93,19 +105,29 @@ impl<S: Lanes> BlockTest<S> {
     /// The lanes that may be hit within the ray's interval.
     #[inline(always)]
     pub(super) fn candidates(&self, aim: &Aim) -> mask32x8<S> {
-        let inside = (self.u.min(self.v).min(self.w) + self.edge_error).simd_ge(0.0);
-        let behind = self.den.mul_sub(aim.t_near, self.near_error).simd_le(self.volume);
-        let before = self.den.mul_add(aim.t_far, self.far_error).simd_ge(self.volume);
-        inside & behind & before
+        self.den.simd.step(
+            #[inline(always)]
+            || {
+                let inside = (self.u.min(self.v).min(self.w) + self.edge_error).simd_ge(0.0);
+                let behind = self.den.mul_sub(aim.t_near, self.near_error).simd_le(self.volume);
+                let before = self.den.mul_add(aim.t_far, self.far_error).simd_ge(self.volume);
+                inside & behind & before
+            },
+        )
     }
 
     /// The lanes that are surely hit within the ray's interval.
     #[inline(always)]
     pub(super) fn sure(&self, aim: &Aim) -> mask32x8<S> {
-        let inside = (self.u.min(self.v).min(self.w) - self.edge_error).simd_gt(0.0);
-        let behind = self.den.mul_add(aim.t_near, self.near_error).simd_lt(self.volume);
-        let before = self.den.mul_sub(aim.t_far, self.far_error).simd_gt(self.volume);
-        inside & behind & before
+        self.den.simd.step(
+            #[inline(always)]
+            || {
+                let inside = (self.u.min(self.v).min(self.w) - self.edge_error).simd_gt(0.0);
+                let behind = self.den.mul_add(aim.t_near, self.near_error).simd_lt(self.volume);
+                let before = self.den.mul_sub(aim.t_far, self.far_error).simd_gt(self.volume);
+                inside & behind & before
+            },
+        )
     }
 
     /// Bounds for t. From |T − t·den| ≤ e0 + e1·t for t ≥ 0 follows
@@ -113,16 +135,21 @@ impl<S: Lanes> BlockTest<S> {
     #[inline(always)]
     pub(super) fn depths(&self, simd: S, aim: &Aim) -> Depths<S> {
         const ROOM: f32 = 1.0 / (1 << 21) as f32;
-        let all = |x: f32| f32x8::splat(simd, x);
-        let ahead = self.volume.simd_gt(self.origin_error);
-        let steep = self.den.simd_gt(self.t_error + self.t_error);
-        let sure = self.sure(aim) & ahead & steep;
-        let low = (self.volume - self.origin_error) / (self.den + self.t_error);
-        let high = (self.volume + self.origin_error) / (self.den - self.t_error);
-        Depths {
-            low: sure.select(low * (1.0 - ROOM), all(f32::NEG_INFINITY)),
-            high: sure.select(high * (1.0 + ROOM), all(f32::INFINITY)),
-        }
+        simd.step(
+            #[inline(always)]
+            || {
+                let all = |x: f32| f32x8::splat(simd, x);
+                let ahead = self.volume.simd_gt(self.origin_error);
+                let steep = self.den.simd_gt(self.t_error + self.t_error);
+                let sure = self.sure(aim) & ahead & steep;
+                let low = (self.volume - self.origin_error) / (self.den + self.t_error);
+                let high = (self.volume + self.origin_error) / (self.den - self.t_error);
+                Depths {
+                    low: sure.select(low * (1.0 - ROOM), all(f32::NEG_INFINITY)),
+                    high: sure.select(high * (1.0 + ROOM), all(f32::INFINITY)),
+                }
+            },
+        )
     }
 }
 

@@ -65,30 +65,45 @@ impl<S: Lanes> Slabs<S> {
     /// The children of a node whose boxes the ray meets.
     #[inline(always)]
     pub(super) fn meet(&self, simd: S, node: &WideNode) -> Met<S> {
-        let (t_near, met) = self.test(simd, node);
-        self.in_order(simd, node, t_near, met)
+        simd.step(
+            #[inline(always)]
+            || {
+                let (t_near, met) = self.test(simd, node);
+                self.in_order(simd, node, t_near, met)
+            },
+        )
     }
 
     /// The same, sooner where there is none or one: those need no order.
     #[inline(always)]
     pub(super) fn meeting(&self, simd: S, node: &WideNode) -> Meeting<S> {
-        let (t_near, met) = self.test(simd, node);
-        let places = met.to_bitmask();
-        if places == 0 {
-            Meeting::None
-        } else if places.is_power_of_two() {
-            Meeting::One(child(node, places.trailing_zeros()))
-        } else {
-            Meeting::Several(self.in_order(simd, node, t_near, met))
-        }
+        simd.step(
+            #[inline(always)]
+            || {
+                let (t_near, met) = self.test(simd, node);
+                let places = met.to_bitmask();
+                if places == 0 {
+                    Meeting::None
+                } else if places.is_power_of_two() {
+                    Meeting::One(child(node, places.trailing_zeros()))
+                } else {
+                    Meeting::Several(self.in_order(simd, node, t_near, met))
+                }
+            },
+        )
     }
 
     /// [`meet`](Self::meet) without the child at a place.
     #[inline(always)]
     pub(super) fn meet_but(&self, simd: S, node: &WideNode, place: u32) -> Met<S> {
-        let (t_near, met) = self.test(simd, node);
-        let others = mask32x8::from_bitmask(simd, !(1 << place));
-        self.in_order(simd, node, t_near, met & others)
+        simd.step(
+            #[inline(always)]
+            || {
+                let (t_near, met) = self.test(simd, node);
+                let others = mask32x8::from_bitmask(simd, !(1 << place));
+                self.in_order(simd, node, t_near, met & others)
+            },
+        )
     }
 
     /// Where the ray enters the boxes of a node's children, and which of them it meets.
