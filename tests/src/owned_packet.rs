@@ -43,6 +43,16 @@ impl OwnedPacket {
         Self { intervals: Intervals::Each(t_min, t_max), ..self.clone() }
     }
 
+    /// How many rays there are.
+    pub fn len(&self) -> usize {
+        self.each[0].len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
     /// Only the rays of these numbers.
     #[must_use]
     pub fn only(&self, indices: &[usize]) -> Self {

@@ -76,7 +76,13 @@ impl<'a, S: Subject<K>, const K: usize> Archer<'a, S, K> {
 
     /// A point at a distance of up to `farthest` diagonals.
     pub(crate) fn point_afar(&mut self, farthest: f64) -> [f64; K] {
-        let exponent = self.random.random_range(0.0..=farthest.log10());
+        self.point_between(1.0..farthest)
+    }
+
+    /// A point at a distance in that range, in diagonals.
+    pub(crate) fn point_between(&mut self, distances: std::ops::Range<f64>) -> [f64; K] {
+        let exponents = distances.start.log10()..=distances.end.log10();
+        let exponent = self.random.random_range(exponents);
         let scale = 10.0_f64.powf(exponent) * self.size();
         std::array::from_fn(|_| self.random.random_range(-scale..scale))
     }

@@ -9,6 +9,7 @@ use kdray::{Coordinate, Interval, Precision, Ray, Scene};
 use rand::RngExt;
 use rand::seq::IndexedRandom;
 use rand_pcg::Pcg64Mcg;
+use std::ops::Range;
 
 /// How far away rays begin, in diagonals.
 const FAR: f64 = 1e5;
@@ -20,6 +21,13 @@ const FARTHEST: f64 = 1e12;
 const FEW_TRIANGLES: usize = 1000;
 const FEW_RAYS: usize = 4;
 
+/// How far away the kernels give rays up, in diagonals, more or less: 2^20 times the tree's reach.
+const GIVEN_UP: Range<f64> = 1e6..1e8;
+const SOME_RAYS: usize = 16;
+
+/// Directions from the first to the second are ordinary.
+const ORDINARY: Range<f64> = 1e-30..1e30;
+
 /// How many points in the inside of a closed mesh are sought.
 const INSIDE: usize = 64;
 
@@ -28,7 +36,12 @@ const INSIDE: usize = 64;
 const SLOW: u64 = 11;
 
 /// After so many volleys all kinds were made once.
-pub const KINDS: u64 = 60;
+const KINDS: u64 = 60;
+
+/// What kind of volley has a number: in steps of seven, so that few volleys in a row are of many kinds.
+pub(super) fn kind(number: u64) -> u64 {
+    number % KINDS * 7 % KINDS
+}
 
 /// Where the rays of a volley begin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -86,8 +99,8 @@ impl<'a, T: Precision> Gunner<'a, T> {
     pub fn volley(&self, number: u64, scene: &Scene<T>) -> Volley {
         let seed = self.seed.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(number);
         let mut random = random(seed);
-        // In steps of seven, so that few volleys in a row are of many kinds.
-        let (cycle, kind) = (number / KINDS, number % KINDS * 7 % KINDS);
+        let number = number + self.target.first;
+        let (cycle, kind) = (number / KINDS, kind(number));
         if kind >= 48 {
             let volley = self.special(kind, scene, seed, &mut random);
             return Volley { to_the_slow: number.is_multiple_of(SLOW), ..volley };
@@ -97,12 +110,14 @@ impl<'a, T: Precision> Gunner<'a, T> {
         let share = [Share::Origin, Share::Target, Share::Direction][kind as usize / 16];
         // Of the twelve kinds at the same points each takes the next ones, so that all have their turn.
         let turn = cycle * 12 + kind % 4 + 4 * (kind / 16);
-        let is_farthest =
-            from == From::Afar && (cycle + kind / 4).is_multiple_of(4) && self.farthest() > FAR;
-        let count = if is_farthest { FEW_RAYS } else { SIZE };
+        let most = self.target.extent.most();
+        let (far, count) = match (cycle + kind / 4) % 4 {
+            0 if from == From::Afar && self.farthest() > FAR => (1.0..FARTHEST, FEW_RAYS),
+            1 if from == From::Afar && self.farthest() > FAR => (GIVEN_UP, SOME_RAYS),
+            _ => (1.0..FAR.min(most), SIZE),
+        };
         let mut point = |i: usize| self.point(at, turn as usize * SIZE + i, &mut random);
         let points: Vec<[f64; 3]> = (0..count).map(&mut point).collect();
-        let far = if is_farthest { FARTHEST } else { FAR.min(self.target.extent.most()) };
         let volley = self.aimed((from, far), share, &points, &mut random);
         let to_the_slow = number.is_multiple_of(SLOW);
         let volley = Volley { to_the_slow, ..volley };
@@ -136,16 +151,19 @@ impl<'a, T: Precision> Gunner<'a, T> {
 
     fn aimed(
         &self,
-        (from, far): (From, f64),
+        (from, far): (From, Range<f64>),
         share: Share,
         points: &[[f64; 3]],
         random: &mut Pcg64Mcg,
     ) -> Volley {
-        let place = |random: &mut Pcg64Mcg| self.origin(from, far, random);
+        let place = |random: &mut Pcg64Mcg| self.origin(from, &far, random);
+        let is_made_ordinary = random.random();
+        let of_length = |d: [f64; 3]| if is_made_ordinary { of_ordinary_length(d) } else { d };
         let packet = match share {
             Share::Origin => {
                 let origin = place(random);
-                let directions: Vec<_> = points.iter().map(|&p| minus(p, origin)).collect();
+                let directions: Vec<_> =
+                    points.iter().map(|&p| of_length(minus(p, origin))).collect();
                 OwnedPacket::new(Common::Origin(origin), &directions)
             }
             Share::Target => {
@@ -162,7 +180,7 @@ impl<'a, T: Precision> Gunner<'a, T> {
                 let back = if from == From::Surface { 0.0 } else { 1.0 };
                 let behind = |&p: &[f64; 3]| minus(p, direction.map(|d| back * d));
                 let origins: Vec<_> = points.iter().map(behind).collect();
-                OwnedPacket::new(Common::Direction(direction), &origins)
+                OwnedPacket::new(Common::Direction(of_length(direction)), &origins)
             }
         };
         let from_inside = from == From::Inside && share != Share::Direction;
@@ -170,15 +188,15 @@ impl<'a, T: Precision> Gunner<'a, T> {
     }
 
     /// Where a ray begins: on the surface if there is no inside.
-    fn origin(&self, from: From, far: f64, random: &mut Pcg64Mcg) -> [f64; 3] {
+    fn origin(&self, from: From, far: &Range<f64>, random: &mut Pcg64Mcg) -> [f64; 3] {
         let mut archer =
             Archer::within(&self.target.mesh, self.target.extent.ends(), random.random());
         match (from, self.inside.choose(random)) {
             (From::Outside, _) => self.outside(random),
             // Most of them of so few digits that the way to a vertex is not rounded.
             (From::Afar, _) => match random.random_range(0..4) {
-                0 => archer.point_afar(far),
-                _ => archer.point_afar(far).map(of_few_digits),
+                0 => archer.point_between(far.clone()),
+                _ => archer.point_between(far.clone()).map(of_few_digits),
             },
             (From::Inside, Some(&place)) => place,
             _ => {
@@ -293,6 +311,19 @@ fn cut<T: Precision>(ray: &Ray, scene: &Scene<T>, random: &mut Pcg64Mcg) -> Ray 
     ];
     let (t_min, t_max) = ends[random.random_range(0..ends.len())];
     ray.with_interval(t_min, t_max)
+}
+
+/// The same direction, times a power of two if it is very long or very short: the kernels leave such rays to the leaf
+/// walk.
+fn of_ordinary_length(direction: [f64; 3]) -> [f64; 3] {
+    let largest = direction.iter().fold(0.0_f64, |most, d| most.max(d.abs()));
+    if ORDINARY.contains(&largest) || !largest.is_normal() {
+        return direction;
+    }
+    // In two steps, for the power may be none that f64 has.
+    let exponent = -largest.log2().floor() as i32;
+    let (first, rest) = (2.0_f64.powi(exponent / 2), 2.0_f64.powi(exponent - exponent / 2));
+    direction.map(|d| d * first * rest)
 }
 
 /// The number without its last 29 digits: it has as many as an f32.

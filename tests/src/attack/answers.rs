@@ -3,7 +3,7 @@
 use super::{Attacked, Volley};
 use crate::flat::Flat;
 use kdray::primitives::{HitArrays, HitRule};
-use kdray::{Hint, Hit, InstructionSet, Precision, Ray, Scene};
+use kdray::{Hint, Hit, InstructionSet, Interval, Precision, Ray, Scene};
 
 /// Meshes of more triangles are too many to test each, and to be watched.
 const FEW: usize = 2000;
@@ -15,6 +15,8 @@ pub struct Answers {
     pub rays: Vec<Walked>,
     /// What everybody else says, to be the same.
     pub others: Vec<Other>,
+    /// How many of those answers were found by packets, not left to other kernels.
+    pub by_packets: u64,
 }
 
 /// The leaf walk's answers to a ray.
@@ -57,8 +59,15 @@ pub enum Said {
 impl Answers {
     /// Asks for everything.
     pub fn of<T: Attacked>(scene: &Scene<T>, flat: &Flat<T>, volley: &Volley) -> Self {
-        let rays = volley.rays.iter().map(|ray| Walked::of(scene, ray)).collect();
-        let mut others = Vec::new();
+        let rays: Vec<Walked> = volley.rays.iter().map(|ray| Walked::of(scene, ray)).collect();
+        let (mut others, mut by_packets) = (Vec::new(), 0);
+        let mut add = |name: &str, said| others.push(Other { name: name.to_owned(), said });
+        add(
+            "first touched",
+            Said::Closest(rays.iter().map(|it| it.touched.first().copied()).collect()),
+        );
+        add("leaf walk, any hit", Said::Any(rays.iter().map(|it| it.any).collect()));
+        on_whole_lines(scene, &volley.rays, &mut add);
         for set in InstructionSet::available() {
             let scene = scene.clone().with_instructions(set);
             let mut add = |kernel: &str, said| {
@@ -66,7 +75,7 @@ impl Answers {
             };
             one_by_one(&scene, &volley.rays, &mut add);
             in_batches(&scene, &volley.rays, &mut add);
-            in_packets(&scene, volley, &mut add);
+            by_packets += in_packets(&scene, volley, &mut add);
         }
         let mut add = |name: &str, said| others.push(Other { name: name.to_owned(), said });
         if volley.to_the_slow {
@@ -75,7 +84,7 @@ impl Answers {
         if volley.to_the_slow && scene.mesh().triangles().len() <= FEW {
             T::in_watched_packets(scene, &volley.rays, &mut add);
         }
-        Self { rays, others }
+        Self { rays, others, by_packets: by_packets as u64 }
     }
 }
 
@@ -130,15 +139,60 @@ fn in_batches<T: Precision>(scene: &Scene<T>, rays: &[Ray], add: &mut impl FnMut
     add("batch, count", Said::Count(counts));
 }
 
-fn in_packets<T: Precision>(scene: &Scene<T>, volley: &Volley, add: &mut impl FnMut(&str, Said)) {
-    let Some(packet) = &volley.packet else { return };
-    let packet = packet.packet();
-    let (mut hits, mut any) = (HitArrays::default(), vec![false; packet.len()]);
-    scene.packet_closest_hits(&packet, &mut hits);
-    scene.packet_any_hits(&packet, &mut any);
-    let closest = (0..packet.len()).map(|index| hits.get(index)).collect();
-    add("packet, closest hit", Said::Closest(closest));
-    add("packet, any hit", Said::Any(any));
+/// t does not depend on the interval: so the hits in it are those of the whole line that it holds, exactly, at its
+/// ends as well. And those behind a hit are the rest.
+fn on_whole_lines<T: Precision>(scene: &Scene<T>, rays: &[Ray], add: &mut impl FnMut(&str, Said)) {
+    let shapes = scene.shapes();
+    let line = |ray: &Ray| Ray { interval: Interval::LINE, ..*ray };
+    let within = |ray: &Ray, hits: &mut dyn Iterator<Item = Hit>| -> Vec<Hit> {
+        let Interval { t_min, t_max } = ray.interval;
+        hits.filter(|hit| t_min <= hit.t && hit.t <= t_max).collect()
+    };
+    let touched = rays.iter().map(|ray| within(ray, &mut shapes.all_touched(&line(ray)))).collect();
+    add("whole line, all touched", Said::All(HitRule::Touching, touched));
+    let crossed = rays.iter().map(|ray| within(ray, &mut shapes.all_hits(&line(ray)))).collect();
+    add("whole line, all hits", Said::All(HitRule::Crossing, crossed));
+    let resumed = rays.iter().map(|ray| {
+        let mut hits: Vec<Hit> = scene.all_hits(ray).take(1).collect();
+        hits.extend(hits.first().copied().iter().flat_map(|last| scene.all_hits_after(ray, last)));
+        hits
+    });
+    add("resumed, all hits", Said::All(HitRule::Crossing, resumed.collect()));
+    // As if the first were not there, and then it is.
+    let kept = rays.iter().map(|ray| {
+        let mut first = None;
+        let next = scene.closest_hit_where(ray, |hit| *first.get_or_insert(*hit) != *hit);
+        let others = next.map(|next| scene.all_touched_after(ray, &next));
+        first.into_iter().chain(next).chain(others.into_iter().flatten()).collect()
+    });
+    add("first, second, and others behind it", Said::All(HitRule::Touching, kept.collect()));
+}
+
+/// All rays at once, and by fours: a packet of many that are hard is too much work, and leaves them to other kernels.
+/// How many answers it did not leave.
+fn in_packets<T: Precision>(
+    scene: &Scene<T>,
+    volley: &Volley,
+    add: &mut impl FnMut(&str, Said),
+) -> usize {
+    let Some(all) = &volley.packet else { return 0 };
+    let mut answered = 0;
+    for (name, size) in [("packet", all.len().max(1)), ("packets of four", 4)] {
+        let (mut closest, mut any) = (Vec::new(), Vec::new());
+        for indices in (0..all.len()).collect::<Vec<_>>().chunks(size) {
+            let owned = all.only(indices);
+            let packet = owned.packet();
+            let (mut hits, mut found) = (HitArrays::default(), vec![false; packet.len()]);
+            let work = scene.packet_closest_hits(&packet, &mut hits);
+            answered += packet.len() - work.left;
+            closest.extend((0..packet.len()).map(|index| hits.get(index)));
+            answered += packet.len() - scene.packet_any_hits(&packet, &mut found).left;
+            any.extend(found);
+        }
+        add(&format!("{name}, closest hit"), Said::Closest(closest));
+        add(&format!("{name}, any hit"), Said::Any(any));
+    }
+    answered
 }
 
 fn without_tree<T: Precision>(flat: &Flat<T>, rays: &[Ray], add: &mut impl FnMut(&str, Said)) {

@@ -4,7 +4,7 @@ use super::aim::Gunner;
 use super::case::{Case, Tamper, shoot};
 use super::verdict::Judge;
 use super::volley::SIZE;
-use super::{AnyTarget, Attacked, Tally, Target, settings, trees};
+use super::{AnyTarget, Attacked, Tally, Target, settings, targets, trees};
 use crate::flat::Flat;
 use kdray::Scene;
 use rayon::prelude::*;
@@ -139,7 +139,8 @@ impl Campaign<'_> {
         outcome: &mut Outcome,
         numbers: Range<u64>,
     ) {
-        let name = settings::NAMES[outcome.parts as usize % settings::NAMES.len()];
+        let place = outcome.parts + target.first / targets::VOLLEYS;
+        let name = settings::NAMES[place as usize % settings::NAMES.len()];
         let options = settings::named(name);
         let scene = match Scene::build(target.mesh.clone(), &options) {
             Ok(scene) => scene,
@@ -155,7 +156,7 @@ impl Campaign<'_> {
         };
         let tallies: Vec<(u64, Tally)> = numbers.clone().into_par_iter().map(shot).collect();
         for (number, tally) in tallies {
-            if tally.errors() > 0 && outcome.example.is_none() {
+            if tally.errors() > 0 && outcome.case.is_none() {
                 let volley = gunner.volley(number, &scene);
                 outcome.example.clone_from(&tally.example);
                 let soup =
@@ -218,7 +219,7 @@ impl Outcome {
     /// How many times as many volleys it has as a large target.
     fn weight(&self) -> u64 {
         match self.triangles {
-            0..=2_000 => 4,
+            0..=2_000 => targets::VOLLEYS,
             2_001..=50_000 => 2,
             _ => 1,
         }

@@ -12,6 +12,7 @@ use crate::flat::Flat;
 use crate::meshes::{Soup, mesh};
 use kdray::{
     BuildOptions, Coordinate, Hit, Instance, InstanceHit, InstancedScene, Precision, Ray, Scene,
+    Side,
 };
 use rand::RngExt;
 use rand::seq::SliceRandom;
@@ -21,7 +22,7 @@ use rand_pcg::Pcg64Mcg;
 const COPIES: usize = 4;
 
 /// Meshes of more triangles are not copied.
-pub const FEW: usize = 2000;
+const FEW: usize = 2000;
 
 /// Where a copy is: its axis k is the axis `from[k]` of the mesh times `by[k]`, and `offset[k]` is added.
 #[derive(Clone, Copy, Debug)]
@@ -76,6 +77,13 @@ impl Placing {
         is_exact.then_some(carried)
     }
 
+    /// Whether left and right change places.
+    fn is_mirrored(&self) -> bool {
+        let [i, j, k] = self.from;
+        let turns_over = (i > j) ^ (j > k) ^ (i > k);
+        self.by.iter().fold(turns_over, |is_mirrored, by| is_mirrored ^ (*by < 0.0))
+    }
+
     fn instance(&self, mask: u32) -> Instance {
         let row = |k: usize| {
             let mut row = [0.0, 0.0, 0.0, self.offset[k]];
@@ -126,7 +134,9 @@ impl<'a, T: Precision> Copies<'a, T> {
             let volley = gunner.volley(random.random_range(0..1 << 20), &scene);
             for ray in &volley.rays {
                 if let Some(truth) = self.truth(&flat, ray, mask) {
-                    judge_hits(&mut tally, ray, &truth, &self.walked(&copies, ray));
+                    let walked = self.walked(&copies, ray);
+                    judge_hits(&mut tally, ray, &truth, &walked);
+                    self.judge_the_rest(&mut tally, &copies, ray, &walked);
                 }
             }
         }
@@ -138,6 +148,15 @@ impl<'a, T: Precision> Copies<'a, T> {
     fn truth(&self, flat: &Flat<T>, ray: &Ray, mask: u32) -> Option<Truth> {
         let is_seen = |copy: u32| mask >> copy & 1 == 1;
         let mut truth = Truth::of_those(flat, ray, |id| is_seen(id / self.triangles));
+        // The side of a hit is that of the mesh.
+        for hit in &mut truth.touched {
+            if self.placings[(hit.id / self.triangles) as usize].is_mirrored() {
+                hit.side = match hit.side {
+                    Side::Front => Side::Back,
+                    Side::Back => Side::Front,
+                };
+            }
+        }
         truth.crossed.clear();
         for (copy, placing) in (0..).zip(&self.placings) {
             let carried = placing.carried(ray)?;
@@ -152,11 +171,41 @@ impl<'a, T: Precision> Copies<'a, T> {
         Some(truth)
     }
 
+    /// The other forms of the same answers, which go by the kernels: how many hits, all at once, and batches.
+    fn judge_the_rest(
+        &self,
+        tally: &mut Tally,
+        copies: &InstancedScene<T>,
+        ray: &Ray,
+        walked: &Walked,
+    ) {
+        if walked.count != walked.crossed.len() {
+            tally.miscounted += 1;
+            tally.tell(ray, || format!("count is {} of {:?}", walked.count, walked.crossed));
+        }
+        let mut at_once = Vec::new();
+        copies.all_hits_into(ray, &mut at_once);
+        let (mut closest, mut any) = ([None], [false]);
+        copies.closest_hits(&[*ray], &mut closest);
+        copies.any_hits(&[*ray], &mut any);
+        let is_same =
+            at_once.into_iter().map(|it| self.as_of_all(it)).eq(walked.crossed.iter().copied())
+                && closest[0].map(|it| self.as_of_all(it)) == walked.closest
+                && any[0] == walked.any
+                && walked.closest == walked.touched.first().copied();
+        if !is_same {
+            tally.differing += 1;
+            tally.tell(ray, || format!("at once, or in a batch, other than {walked:?}"));
+        }
+    }
+
+    fn as_of_all(&self, found: InstanceHit) -> Hit {
+        let primitive_id = found.instance_id * self.triangles + found.hit.primitive_id;
+        Hit { primitive_id, ..found.hit }
+    }
+
     fn walked(&self, copies: &InstancedScene<T>, ray: &Ray) -> Walked {
-        let as_of_all = |found: InstanceHit| {
-            let primitive_id = found.instance_id * self.triangles + found.hit.primitive_id;
-            Hit { primitive_id, ..found.hit }
-        };
+        let as_of_all = |found| self.as_of_all(found);
         Walked {
             closest: copies.closest_hit(ray).map(as_of_all),
             any: copies.any_hit(ray),

@@ -1,13 +1,14 @@
 //! Queries about points: at vertices, edges and faces, one unit in the last place beside them, around the mesh and far
 //! away.
 
-use super::points_truth::{PointTruth, is_difference_exact};
+use super::points_truth::PointTruth;
 use super::{Tally, Target};
 use crate::flat::Flat;
 use crate::oracle::{exact_distance_squared, is_distance};
 use crate::points::beside;
 use crate::rays::Archer;
-use kdray::{ClosestPoint, Coordinate, Precision, Scene, Side};
+use kdray::primitives::Closure;
+use kdray::{ClosestPoint, Coordinate, InstructionSet, Precision, Scene, Side};
 use num_traits::Zero;
 use rand::RngExt;
 use rand_pcg::Pcg64Mcg;
@@ -20,6 +21,10 @@ const WINDING_ERROR: f64 = 0.01;
 
 /// How far away most of the farthest points are, in diagonals; some are wherever f64 goes.
 const FAR: f64 = 1e6;
+
+/// How many points are asked about at once at the least, and how many now and then.
+const SHORT_BATCH: usize = 40;
+const LONG_BATCH: usize = 2055;
 
 /// A point, and what is asked about it.
 #[derive(Clone, Copy, Debug)]
@@ -43,6 +48,8 @@ pub struct Said {
     pub signed: Option<f64>,
     /// `winding_number`.
     pub winding: f64,
+    /// Whether that is to be a whole number.
+    pub is_whole: bool,
     /// `visible`, both ways.
     pub visible: [bool; 2],
     /// `thickness`.
@@ -50,7 +57,7 @@ pub struct Said {
 }
 
 impl Question {
-    /// The question of a number about a target.
+    /// A question about a target.
     pub fn new<T: Coordinate>(target: &Target<T>, random: &mut Pcg64Mcg) -> Self {
         let mut archer = Archer::within(&target.mesh, target.extent.ends(), random.random());
         let on_edge = |(a, b): ([f64; 3], [f64; 3]), s: f64| {
@@ -75,32 +82,27 @@ impl Question {
         if neighbour > 0 {
             point = beside(&point)[neighbour - 1];
         }
+        // Half of the time such that the way between them is not rounded.
         let other = if random.random() { archer.corner() } else { archer.around(0.5) };
-        let other = other.map(|x| target.rounded(x));
+        let other = if random.random() { other } else { other.map(|x| target.rounded(x)) };
         let id = random.random_range(0..target.mesh.triangles().len() as u32);
         let (u, v) = (random.random_range(0.05..0.5), random.random_range(0.05..0.45));
         let side = if random.random() { Side::Front } else { Side::Back };
         Self { point, other, through: (id, [u, v], side) }
     }
-
-    /// The point, or one next to it whose difference to the other is not rounded.
-    fn seen<T: Coordinate>(&self, target: &Target<T>) -> [f64; 3] {
-        let is_exact = (0..3).all(|k| is_difference_exact(self.other[k], self.point[k]));
-        if is_exact { self.point } else { self.point.map(|x| target.rounded(x)) }
-    }
 }
 
 impl Said {
     /// The answers of a scene.
-    pub fn by<T: Precision>(scene: &Scene<T>, target: &Target<T>, question: &Question) -> Self {
+    pub fn by<T: Precision>(scene: &Scene<T>, question: &Question) -> Self {
         let Question { point, other, through: (id, [u, v], side) } = *question;
-        let seen = question.seen(target);
         Self {
             closest: scene.closest_point(point),
             inside: scene.contains(point),
             signed: scene.signed_distance(point),
             winding: scene.winding_number(point),
-            visible: [scene.visible(seen, other), scene.visible(other, seen)],
+            is_whole: scene.closure() == Closure::Oriented,
+            visible: [scene.visible(point, other), scene.visible(other, point)],
             thickness: scene.thickness(id, u, v, side),
         }
     }
@@ -119,16 +121,50 @@ pub fn attack<T: Precision>(
     let (mut points, mut alone) = (Vec::new(), Vec::new());
     for _ in 0..count {
         let question = Question::new(target, random);
-        let said = Said::by(scene, target, &question);
+        let said = Said::by(scene, &question);
         judge(&mut tally, target, &truth, &question, &said);
+        compare_sets(&mut tally, scene, &question, &said);
         points.push(question.point);
         alone.push(said.inside);
     }
-    compare_batch(&mut tally, scene, &points, &alone);
+    compare_batches(&mut tally, scene, &points, &alone, random);
     tally
 }
 
-/// What is said of each of many points is what is said of it alone.
+/// Every instruction set says the same, to the last bit: those are what is printed.
+fn compare_sets<T: Precision>(
+    tally: &mut Tally,
+    scene: &Scene<T>,
+    question: &Question,
+    said: &Said,
+) {
+    for set in InstructionSet::available() {
+        let other = Said::by(&scene.clone().with_instructions(set), question);
+        if format!("{other:?}") != format!("{said:?}") {
+            tally.misjudged += 1;
+            tally.tell(question, || format!("{set}: {other:?}, but the best set {said:?}"));
+        }
+    }
+}
+
+/// What is said of each of many points is what is said of it alone. Of fewer than so many each is asked about alone;
+/// and now and then they are more than are taken at once.
+fn compare_batches<T: Precision>(
+    tally: &mut Tally,
+    scene: &Scene<T>,
+    points: &[[f64; 3]],
+    alone: &[bool],
+    random: &mut Pcg64Mcg,
+) {
+    let is_long = random.random_range(0..16) == 0;
+    let count = if is_long { LONG_BATCH } else { points.len().max(SHORT_BATCH) };
+    let points: Vec<_> = points.iter().copied().cycle().take(count).collect();
+    let alone: Vec<_> = alone.iter().copied().cycle().take(count).collect();
+    for set in InstructionSet::available() {
+        compare_batch(tally, &scene.clone().with_instructions(set), &points, &alone);
+    }
+}
+
 fn compare_batch<T: Precision>(
     tally: &mut Tally,
     scene: &Scene<T>,
@@ -186,15 +222,18 @@ pub fn judge<T: Coordinate>(
     let is_negative = said.inside && closest.distance > 0.0;
     let signed = if is_negative { -closest.distance } else { closest.distance };
     check(said.signed == Some(signed), &|| format!("signed distance: {signed:e}"));
+    if said.is_whole && !is_on_surface {
+        let winding = truth.winding_counted(question.point);
+        check(said.winding == winding as f64, &|| format!("winding number, counted: {winding}"));
+    }
     if let Some(winding) = truth.winding_number(question.point).filter(|_| !is_on_surface) {
         // So near to a surface that the sum may have it on either side.
         let is_leaping = closest.distance <= target.extent.doubt();
         let is_right = is_leaping || (said.winding - winding).abs() < WINDING_ERROR;
         check(is_right, &|| format!("winding number: {winding}"));
     }
-    if let Some(is_visible) = truth.is_visible(question.seen(target), question.other) {
-        check(said.visible == [is_visible; 2], &|| format!("visible: {is_visible}"));
-    }
+    let is_visible = truth.is_visible(question.point, question.other);
+    check(said.visible == [is_visible; 2], &|| format!("visible: {is_visible}"));
     let (id, weights, side) = question.through;
     let along_normal = if side == Side::Front { -1.0 } else { 1.0 };
     if let Some(thickness) = truth.thickness(id, weights, along_normal) {
@@ -227,7 +266,7 @@ mod tests {
         let (mut tally, mut random) = (Tally::default(), random(3));
         for _ in 0..150 {
             let question = Question::new(&target, &mut random);
-            let mut said = Said::by(&scene, &target, &question);
+            let mut said = Said::by(&scene, &question);
             spoil(&mut said);
             judge(&mut tally, &target, &truth, &question, &said);
         }
@@ -250,7 +289,7 @@ mod tests {
             |said| said.closest.iter_mut().for_each(|it| it.point[0] += 1e-12 * it.point[1]),
             |said| said.inside = !said.inside,
             |said| said.signed = said.signed.map(f64::abs),
-            |said| said.winding += 0.02,
+            |said| said.winding += 1e-9,
             |said| said.visible[1] = !said.visible[1],
             |said| said.thickness = said.thickness.map(|t| 1.001 * t),
         ];

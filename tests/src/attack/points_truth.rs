@@ -4,13 +4,12 @@ use super::Truth;
 use super::target::Target;
 use super::truth::Place;
 use crate::flat::Flat;
-use crate::oracle::{exact_distance_squared, exact_triangle_hit};
+use crate::oracle::{exact_distance_squared, is_between};
 use glam::DVec3;
-use kdray::primitives::HitRule;
-use kdray::{Coordinate, Interval, Ray};
+use kdray::{Coordinate, Interval, Ray, Side};
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::{One, Signed, ToPrimitive};
+use num_traits::ToPrimitive;
 
 /// Triangles of more are too many to sum over for each point.
 const FEW: usize = 2000;
@@ -58,9 +57,7 @@ impl<'a, T: Coordinate> PointTruth<'a, T> {
     /// else by the winding number, unless that is too near to a half, or too long a sum.
     pub fn contains_off_surface(&self, point: [f64; 3]) -> Option<bool> {
         if self.target.is_closed {
-            let ray = Ray { interval: Interval::LINE, ..Ray::new(point, [0.25, 0.5, 1.0]) };
-            let crossed = Truth::of(self.flat, &ray).crossed;
-            return Some(crossed.iter().filter(|hit| hit.t > 0.0).count() % 2 == 1);
+            return Some(self.ahead(point).count() % 2 == 1);
         }
         let number = self.winding_number(point)?;
         ((number - 0.5).abs() > 0.02).then_some(number > 0.5)
@@ -82,25 +79,39 @@ impl<'a, T: Coordinate> PointTruth<'a, T> {
         self.target.mesh.corners(id).map(corner)
     }
 
-    /// Whether nothing is between two points; `None` if their difference is not an f64.
-    pub fn is_visible(&self, from: [f64; 3], to: [f64; 3]) -> Option<bool> {
-        let is_exact = (0..3).all(|k| is_difference_exact(to[k], from[k]));
+    /// Whether nothing is between two points. Nothing sees across a difference that is no number.
+    pub fn is_visible(&self, from: [f64; 3], to: [f64; 3]) -> bool {
         let ray = Ray { interval: Interval::LINE, ..Ray::through(from, to) };
-        if !is_exact {
-            return None;
+        if !ray.direction.iter().all(|d| d.is_finite()) {
+            return false;
         }
-        let between = Interval { t_min: f64::from_bits(1), t_max: 1.0 };
-        let is_in_the_way = |id: u32| {
-            let corners = self.target.mesh.corners(id);
-            let hit = exact_triangle_hit(&corners, id, &ray, HitRule::Touching);
-            hit.is_some_and(|hit| hit.t.is_positive() && hit.t < BigRational::one())
-        };
-        let touched = Truth::of(self.flat, &ray).touched;
-        Some(!touched.iter().any(|hit| match hit.place(between) {
-            Place::Inside => true,
-            Place::AtEnd => is_in_the_way(hit.id),
-            Place::Outside => false,
-        }))
+        let is_in_the_way = |id: u32| is_between(&self.target.mesh.corners(id), from, to);
+        if (0..3).all(|k| is_difference_exact(to[k], from[k])) {
+            let between = Interval { t_min: f64::from_bits(1), t_max: 1.0 };
+            let touched = Truth::of(self.flat, &ray).touched;
+            return !touched.iter().any(|hit| match hit.place(between) {
+                Place::Inside => true,
+                Place::AtEnd => is_in_the_way(hit.id),
+                Place::Outside => false,
+            });
+        }
+        // The ray is rounded, and tells only what is far from it.
+        let mut is_free = true;
+        self.flat.each_candidate(&ray, |_, id| is_free = is_free && !is_in_the_way(id));
+        is_free
+    }
+
+    /// How often the mesh winds around a point that is not on it, counted: by the sides of what a ray crosses.
+    /// Only of oriented meshes is that the same for every ray.
+    pub fn winding_counted(&self, point: [f64; 3]) -> i64 {
+        self.ahead(point).map(|side| if side == Side::Back { 1 } else { -1 }).sum()
+    }
+
+    /// The sides of the triangles that a ray from there crosses.
+    fn ahead(&self, point: [f64; 3]) -> impl Iterator<Item = Side> {
+        let ray = Ray { interval: Interval::LINE, ..Ray::new(point, [0.25, 0.5, 1.0]) };
+        let crossed = Truth::of(self.flat, &ray).crossed;
+        crossed.into_iter().filter(|hit| hit.t > 0.0).map(|hit| hit.side)
     }
 
     /// How far it is from a point of a triangle to the next one behind it, on the given side of its normal;

@@ -4,13 +4,14 @@ use super::Tally;
 use super::campaign::Outcome;
 
 /// What stands above the columns.
-const HEAD: [&str; 18] = [
+const HEAD: [&str; 19] = [
     "target",
     "triangles",
     "rays",
     "crossing",
     "close",
     "oracle",
+    "packets",
     "points",
     "files",
     "lost",
@@ -42,8 +43,8 @@ pub fn table(outcomes: &[Outcome]) -> String {
 }
 
 fn row(name: String, triangles: usize, tally: &Tally, trees: (u64, u64)) -> Vec<String> {
-    let Tally { rays, crossing, close, oracle, points, files, .. } = *tally;
-    let counts = [triangles as u64, rays, crossing, close, oracle, points, files];
+    let Tally { rays, crossing, close, oracle, packets, points, files, .. } = *tally;
+    let counts = [triangles as u64, rays, crossing, close, oracle, packets, points, files];
     let cells = counts.into_iter().chain(tally.by_kind()).map(|count| count.to_string());
     std::iter::once(name).chain(cells).chain([format!("{} of {}", trees.0, trees.1)]).collect()
 }
@@ -52,7 +53,7 @@ fn row(name: String, triangles: usize, tally: &Tally, trees: (u64, u64)) -> Vec<
 pub const LEGEND: &str = "\
 crossing: rays that cross the target; close: rays that meet an edge or a vertex, or so nearly that rational
 arithmetic decided; oracle: rays of which t, u, v and side of all hits were compared with rational arithmetic;
-points: points that were asked about; files: tree files that were read, nearly all of them damaged.
+packets: answers that packets of rays gave and did not leave to the kernels of single rays; points: points that were asked about; files: tree files that were read, nearly all of them damaged.
 lost, phantom: hits or rays that hit; miscounted: rays whose count, or its parity, is wrong; disordered: hits
 before nearer ones; duplicate: hits reported twice; numbers: hits with a wrong t, u, v or side; kernels: answers
 that are not those of the leaf walk to the last bit; misjudged: wrong answers about points; misread: damaged
@@ -90,6 +91,6 @@ mod tests {
         let lines: Vec<Vec<&str>> =
             table.lines().map(|line| line.split_whitespace().collect()).collect();
         assert_eq!(lines[0].len(), HEAD.len());
-        assert_eq!(lines[3].join(" "), "all 0 128 0 0 0 0 0 6 0 0 0 0 0 10 0 0 2 of 16");
+        assert_eq!(lines[3].join(" "), "all 0 128 0 0 0 0 0 0 6 0 0 0 0 0 10 0 0 2 of 16");
     }
 }

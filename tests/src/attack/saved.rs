@@ -29,7 +29,7 @@ pub fn attack<T: Attacked>(scene: &Scene<T>, flat: &Flat<T>, volley: &Volley) ->
                 if saved(&again) != bytes {
                     misread(&mut tally, || format!("{name}, and saved once more, it differs"));
                 }
-                let Answers { rays, others } = Answers::of(&again, flat, volley);
+                let Answers { rays, others, .. } = Answers::of(&again, flat, volley);
                 for Other { name: what, said } in told(&rays).into_iter().chain(others) {
                     compare(&mut tally, volley, &walked, &format!("{name}, {what}"), &said);
                 }

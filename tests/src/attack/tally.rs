@@ -15,6 +15,8 @@ pub struct Tally {
     pub deepest: u64,
     /// How many were compared with rational arithmetic in all numbers.
     pub oracle: u64,
+    /// How many answers about them were those of packets, which leave others to the kernels of single rays.
+    pub packets: u64,
     /// Hits that are not in a list, or rays that hit something and are said not to.
     pub lost: u64,
     /// Hits that are none, or rays that hit nothing and are said to.
@@ -71,6 +73,7 @@ impl Tally {
             close: self.close + other.close,
             deepest: self.deepest.max(other.deepest),
             oracle: self.oracle + other.oracle,
+            packets: self.packets + other.packets,
             lost: self.lost + other.lost,
             phantom: self.phantom + other.phantom,
             miscounted: self.miscounted + other.miscounted,

@@ -20,6 +20,9 @@ pub struct Target<T: 'static = f32> {
     pub vertices: Vec<u32>,
     /// The pairs of them that are edges.
     pub edges: Vec<(u32, u32)>,
+    /// The number of its first volley. Targets begin at others, so that few volleys at each are of all kinds
+    /// together, at trees of all settings.
+    pub first: u64,
 }
 
 /// A target of either precision.
@@ -36,7 +39,7 @@ impl<T: Coordinate> Target<T> {
     pub fn new(name: impl Into<String>, mesh: TriangleMesh<T>) -> Self {
         let (vertices, edges) = vertices_and_edges(&mesh);
         let (extent, is_closed) = (Extent::of(&mesh), is_closed(&mesh));
-        Self { name: name.into(), mesh, extent, is_closed, vertices, edges }
+        Self { name: name.into(), mesh, extent, is_closed, vertices, edges, first: 0 }
     }
 
     /// A number next to x that has few digits: see [`Subject::rounded`].
@@ -51,6 +54,24 @@ impl<T: Coordinate> Target<T> {
 }
 
 impl AnyTarget {
+    /// The same, with another first volley.
+    #[must_use]
+    pub fn beginning_at(mut self, number: u64) -> Self {
+        match &mut self {
+            Self::Single(target) => target.first = number,
+            Self::Double(target) => target.first = number,
+        }
+        self
+    }
+
+    /// The number of its first volley.
+    pub fn first(&self) -> u64 {
+        match self {
+            Self::Single(target) => target.first,
+            Self::Double(target) => target.first,
+        }
+    }
+
     /// What it is called.
     pub fn name(&self) -> &str {
         match self {

@@ -9,10 +9,18 @@ use kdray::TriangleMesh;
 /// Scenes with more triangles are left out, because their trees take too long to build again and again.
 const MOST: usize = 520_000;
 
+/// How many volleys small targets have in the first round: the next target begins where this one ends.
+pub(super) const VOLLEYS: u64 = 4;
+
 /// The targets that are made by code, of both precisions.
 pub fn made() -> Vec<AnyTarget> {
     let singles = closed().into_iter().chain(scaled()).chain(awkward());
-    singles.map(AnyTarget::from).chain(in_f64().into_iter().map(AnyTarget::from)).collect()
+    let all = singles.map(AnyTarget::from).chain(in_f64().into_iter().map(AnyTarget::from));
+    in_turns(all)
+}
+
+fn in_turns(targets: impl Iterator<Item = AnyTarget>) -> Vec<AnyTarget> {
+    (0..).zip(targets).map(|(index, target)| target.beginning_at(VOLLEYS * index)).collect()
 }
 
 fn closed() -> Vec<Target> {
@@ -48,9 +56,15 @@ fn scaled() -> Vec<Target> {
         of("sphere, size 3e38", sphere(), |p| p.map(|x| x * 3e38)),
         of("torus, size 1e-30", torus(), |p| p.map(|x| x * 1e-30)),
         of("sphere of denormals", sphere(), |p| p.map(|x| x * 1e-41)),
+        // The kernels' trees reach from 2^-32 to 2^32.
+        of("sphere, size 2^28", sphere(), |p| p.map(|x| x * 2.0_f64.powi(28))),
+        of("torus, size 2^-33", torus(), |p| p.map(|x| x * 2.0_f64.powi(-33))),
         of("sphere, 1e3 x 1 x 1e-6", sphere(), |[x, y, z]| [1e3 * x, y, 1e-6 * z]),
         of("cube, 2^40 x 1 x 2^-40", meshes::cube(4), |[x, y, z]| {
             [x * 2.0_f64.powi(40), y, z * 2.0_f64.powi(-40)]
+        }),
+        of("cube, 2^28 x 1 x 2^-28", meshes::cube(4), |[x, y, z]| {
+            [x * 2.0_f64.powi(28), y, z * 2.0_f64.powi(-28)]
         }),
     ]
 }
@@ -141,7 +155,7 @@ pub fn of_scenes(most: usize) -> Vec<AnyTarget> {
         [closed, whole].into_iter().flatten()
     });
     let targets = targets.filter(|target| !target.mesh.triangles().is_empty());
-    targets.map(AnyTarget::from).collect()
+    in_turns(targets.map(AnyTarget::from))
 }
 
 fn soup_of(mesh: &TriangleMesh) -> Soup {
@@ -156,12 +170,41 @@ fn moved(mesh: &TriangleMesh, by: [f32; 3]) -> TriangleMesh {
 
 #[cfg(test)]
 mod tests {
+    use super::super::{aim::kind, settings};
     use super::*;
+    use kdray::{BuildOptions, Scene};
+    use std::collections::HashSet;
 
     #[test]
     fn what_should_be_closed_is() {
         assert!(closed().iter().chain(&scaled()).all(|target| target.is_closed));
         assert!(awkward().iter().filter(|target| target.is_closed).count() <= 1);
         assert_eq!(in_f64().iter().filter(|target| !target.is_closed).count(), 6);
+    }
+
+    #[test]
+    fn few_volleys_at_each_are_of_all_kinds_at_trees_of_all_settings() {
+        let firsts: Vec<u64> = made().iter().map(AnyTarget::first).collect();
+        let numbers = firsts.iter().flat_map(|&first| first..first + VOLLEYS);
+        let kinds: HashSet<u64> = numbers.map(kind).collect();
+        assert_eq!(kinds.len(), 60);
+        assert!(firsts.len() >= settings::NAMES.len());
+    }
+
+    #[test]
+    fn kernels_have_trees_of_all_but_extreme_sizes() {
+        let has_none = |target: &Target| {
+            let scene = Scene::build(target.mesh.clone(), &BuildOptions::default());
+            scene.is_ok_and(|scene| scene.wide_tree().is_none())
+        };
+        let all = [closed(), scaled(), awkward()].concat();
+        let without: Vec<_> = all.iter().filter(|it| has_none(it)).map(|it| &it.name).collect();
+        let extreme = ["sphere, size 1e30", "sphere, size 3e38", "torus, size 1e-30"];
+        let more = ["sphere of denormals", "cube, 2^40 x 1 x 2^-40"];
+        assert_eq!(without, [&extreme[..], &more].concat());
+        for target in in_f64() {
+            let scene = Scene::build(target.mesh, &BuildOptions::default()).unwrap();
+            assert!(scene.wide_tree().is_some(), "{}", target.name);
+        }
     }
 }

@@ -8,7 +8,7 @@ use crate::flat::Flat;
 use crate::oracle::exact_triangle_hit;
 use glam::{DVec3, Vec3Swizzles};
 use kdray::primitives::HitRule;
-use kdray::{Coordinate, Interval, Ray};
+use kdray::{Coordinate, Interval, Ray, Side};
 use num_traits::{Signed, ToPrimitive};
 
 /// An edge function, or a volume, of six products has fewer than ten roundings, each at most 2^-53 of the
@@ -39,6 +39,8 @@ pub struct TrueHit {
     pub id: u32,
     /// The ray's parameter, good to a relative 2^-40; its sign is right.
     pub t: f64,
+    /// The side that the line comes from.
+    pub side: Side,
 }
 
 /// How a hit lies to an interval.
@@ -82,9 +84,9 @@ impl Truth {
     fn look_at<T: Coordinate>(&mut self, corners: &[[T; 3]; 3], id: u32, ray: &Ray, view: &View) {
         match view.glance(corners) {
             Glance::Missed => {}
-            Glance::Hit(t) => {
-                self.touched.push(TrueHit { id, t });
-                self.crossed.push(TrueHit { id, t });
+            Glance::Hit(t, side) => {
+                self.touched.push(TrueHit { id, t, side });
+                self.crossed.push(TrueHit { id, t, side });
             }
             Glance::Unclear => {
                 self.is_close = true;
@@ -148,13 +150,13 @@ fn exactly<T: Coordinate>(
         (true, _, true) => -smallest,
         _ => t,
     };
-    Some(TrueHit { id, t })
+    Some(TrueHit { id, t, side: exact.side })
 }
 
 /// What f64 tells of a ray and a triangle.
 enum Glance {
     Missed,
-    Hit(f64),
+    Hit(f64, Side),
     Unclear,
 }
 
@@ -223,7 +225,8 @@ impl View {
         };
         let good = den_error / den.abs() + error / volume.abs() < T_ERROR;
         let t = volume / den * self.t_scale;
-        if good && (1e-290..1e290).contains(&t.abs()) { Hit(t) } else { Unclear }
+        let side = if den < 0.0 { Side::Front } else { Side::Back };
+        if good && (1e-290..1e290).contains(&t.abs()) { Hit(t, side) } else { Unclear }
     }
 }
 
@@ -255,7 +258,10 @@ mod tests {
                     let exact = exactly(&corners, id, &ray, HitRule::Touching);
                     match View::of(&ray, 1.0).glance(&corners) {
                         Glance::Missed => assert_eq!(exact, None, "{ray:?} {id}"),
-                        Glance::Hit(t) => assert!(exact.unwrap().is_at(t), "{ray:?} {id}"),
+                        Glance::Hit(t, side) => {
+                            let exact = exact.unwrap();
+                            assert!(exact.is_at(t) && exact.side == side, "{ray:?} {id}");
+                        }
                         Glance::Unclear => {}
                     }
                 }
@@ -276,7 +282,7 @@ mod tests {
                     let exact = exactly(&corners, id, &ray, HitRule::Touching);
                     match view.glance(&corners) {
                         Glance::Missed => assert_eq!(exact, None, "{ray:?} {id}"),
-                        Glance::Hit(t) => assert!(exact.unwrap().is_at(t), "{ray:?} {id}"),
+                        Glance::Hit(t, _) => assert!(exact.unwrap().is_at(t), "{ray:?} {id}"),
                         Glance::Unclear => told -= 1,
                     }
                     (told, all) = (told + 1, all + 1);

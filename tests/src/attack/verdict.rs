@@ -30,13 +30,13 @@ impl<'a, T: Precision> Judge<'a, T> {
 
     /// Counts what is wrong of the answers to a volley.
     pub fn tally(&self, volley: &Volley, answers: &Answers) -> Tally {
-        let mut tally = Tally::default();
+        let mut tally = Tally { packets: answers.by_packets, ..Tally::default() };
+        let asked_about = place_of_oracle(volley);
         for (index, (ray, walked)) in volley.rays.iter().zip(&answers.rays).enumerate() {
             let truth = Truth::of(self.flat, ray);
             judge_hits(&mut tally, ray, &truth, walked);
             self.judge_count(&mut tally, ray, &truth, walked, volley.from_inside);
-            // By the place in the volley: of every kind some are asked about.
-            if index % ORACLE == volley.rays.len() / 2 % ORACLE {
+            if index % ORACLE == asked_about {
                 tally.oracle += 1;
                 self.ask_oracle(&mut tally, ray, &truth, walked);
             }
@@ -103,6 +103,14 @@ impl<'a, T: Precision> Judge<'a, T> {
     }
 }
 
+/// Which of each [`ORACLE`] rays the oracle is asked about: any, for in many volleys each place has its kind of ray.
+fn place_of_oracle(volley: &Volley) -> usize {
+    let numbers = volley.rays.iter().flat_map(|ray| ray.origin.into_iter().chain(ray.direction));
+    let mixed =
+        numbers.fold(0_u64, |mixed, x| (mixed ^ x.to_bits()).wrapping_mul(0x9e37_79b9_7f4a_7c15));
+    (mixed >> 32) as usize % ORACLE.min(volley.rays.len().max(1))
+}
+
 /// All hits of a ray, but not their number.
 pub(super) fn judge_hits(tally: &mut Tally, ray: &Ray, truth: &Truth, walked: &Walked) {
     tally.rays += 1;
@@ -122,9 +130,9 @@ fn judge_list(tally: &mut Tally, ray: &Ray, truth: &[TrueHit], found: &[Hit]) {
         match known(hit) {
             Some(place) if truth[place].place(ray.interval) != Place::Outside => {
                 times[place] += 1;
-                if !truth[place].is_at(hit.t) {
+                if !truth[place].is_at(hit.t) || truth[place].side != hit.side {
                     tally.numbers += 1;
-                    tally.tell(ray, || format!("t of {hit:?} should be {:e}", truth[place].t));
+                    tally.tell(ray, || format!("{hit:?} should be {:?}", truth[place]));
                 }
             }
             _ => {

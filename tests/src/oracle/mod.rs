@@ -12,7 +12,9 @@ mod segment;
 mod triangle;
 
 pub use compare::{agrees_on_all, agrees_on_closest};
-pub use point::{exact_distance_squared, exactly_contains, is_distance, is_exactly_visible};
+pub use point::{
+    exact_distance_squared, exactly_contains, is_between, is_distance, is_exactly_visible,
+};
 pub use segment::exact_segment_hit;
 pub use triangle::exact_triangle_hit;
 

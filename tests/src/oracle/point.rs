@@ -1,15 +1,14 @@
 //! A point and a triangle.
 
-use super::exact_triangle_hit;
 use super::integers::{Vector, integers, ratio, rational};
+use super::triangle::{exact_touch_between, exact_triangle_hit};
 use kdray::primitives::HitRule::Crossing;
 use kdray::{Coordinate, Ray, TriangleMesh};
-use num_bigint::{BigInt, Sign};
+use num_bigint::Sign;
 use num_rational::BigRational;
-use num_traits::{Signed, Zero};
+use num_traits::{One, Signed, Zero};
 
-/// The square of the distance from a point to a closed triangle, which may have no area, in units
-/// of the square of the returned power of two.
+/// The square of the distance from a point to a closed triangle, which may have no area.
 pub fn exact_distance_squared<T: Coordinate>(
     point: [f64; 3],
     corners: &[[T; 3]; 3],
@@ -73,24 +72,17 @@ pub fn is_distance(found: f64, error: f64, squared: &BigRational) -> bool {
     (low.is_negative() || &low * &low <= *squared) && *squared <= &high * &high
 }
 
-/// Whether anything lies strictly between two points whose difference is an f64 without rounding.
-///
-/// # Panics
-/// If it is not.
+/// Whether no triangle that a line meets is strictly between two points of it: their difference need not be an f64.
 pub fn is_exactly_visible<T: Coordinate>(
     mesh: &TriangleMesh<T>,
     from: [f64; 3],
     to: [f64; 3],
 ) -> bool {
-    let ray = Ray::through(from, to);
-    for k in 0..3 {
-        let sum = rational(from[k]) + rational(ray.direction[k]);
-        assert_eq!(sum, rational(to[k]), "the difference is rounded");
-    }
-    let one = BigRational::from(BigInt::from(1));
-    (0..mesh.triangles().len() as u32).all(|id| {
-        let hit =
-            exact_triangle_hit(&mesh.corners(id), id, &ray, kdray::primitives::HitRule::Touching);
-        hit.is_none_or(|hit| !hit.t.is_positive() || hit.t >= one)
-    })
+    (0..mesh.triangles().len() as u32).all(|id| !is_between(&mesh.corners(id), from, to))
+}
+
+/// Whether a triangle is strictly between two points.
+pub fn is_between<T: Coordinate>(corners: &[[T; 3]; 3], from: [f64; 3], to: [f64; 3]) -> bool {
+    let hit = exact_touch_between(corners, 0, from, to);
+    hit.is_some_and(|hit| hit.t.is_positive() && hit.t < BigRational::one())
 }

@@ -18,20 +18,42 @@ pub fn exact_triangle_hit<T: Coordinate>(
     }
     let [a, b, c] = corners;
     let [a, b, c, o, d] = integers([a, b, c, ray.origin, ray.direction]);
-    let (ab, ac) = (b.minus(&a), c.minus(&a));
+    hit_of_line([&a, &b, &c], id, (&o, &d), rule)
+}
+
+/// Where the line through two points touches the triangle: t is 0 at the first point and 1 at the second. Their
+/// difference need not be an f64.
+pub(super) fn exact_touch_between<T: Coordinate>(
+    corners: &[[T; 3]; 3],
+    id: u32,
+    from: [f64; 3],
+    to: [f64; 3],
+) -> Option<ExactHit> {
+    let [a, b, c] = corners.map(|p| p.map(T::to_f64));
+    let [a, b, c, from, to] = integers([a, b, c, from, to]);
+    hit_of_line([&a, &b, &c], id, (&from, &to.minus(&from)), HitRule::Touching)
+}
+
+fn hit_of_line(
+    [a, b, c]: [&Vector<3>; 3],
+    id: u32,
+    (o, d): (&Vector<3>, &Vector<3>),
+    rule: HitRule,
+) -> Option<ExactHit> {
+    let (ab, ac) = (b.minus(a), c.minus(a));
     let normal = ab.cross(&ac);
     let normal_squared = normal.dot(&normal);
-    let height = normal.dot(&a.minus(&o));
+    let height = normal.dot(&a.minus(o));
     // o + t d lies in the plane for t = height / (normal · d). From a it is at q / (normal · d), of
     // which the part along ab is (q x ac) · normal, and that along ac (ab x q) · normal, over
     // normal².
-    let along_normal = normal.dot(&d);
+    let along_normal = normal.dot(d);
     // Moved by s, the line meets the plane elsewhere by s − d · (normal · s) / (normal · d).
     let weights = |q: &Vector<3>, total: BigInt| {
         let (u, v) = (q.cross(&ac).dot(&normal), ab.cross(q).dot(&normal));
         [total - &u - &v, u, v]
     };
-    let q = o.minus(&a).times(&along_normal).plus(&d.times(&height));
+    let q = o.minus(a).times(&along_normal).plus(&d.times(&height));
     let plain = weights(&q, &along_normal * &normal_squared);
     let gains = |step: &Vector<3>| {
         let gain = step.times(&along_normal).minus(&d.times(&normal.dot(step)));
