@@ -40,8 +40,8 @@ pub(crate) const DISTANCE_ERROR: f64 = 64.0 * f64::EPSILON;
 /// The point of a triangle that is nearest to `point`, whose coordinates are finite.
 ///
 /// The triangle is a closed set; one without area is the segment, or the point, that its corners
-/// span. Of triangles that share a vertex or an edge, all report the same distance to it, to the
-/// last bit. It is the largest f64 at most.
+/// span. Of triangles that share a vertex or an edge, all for whose inside that is the nearest point report the same
+/// distance to it, to the last bit. It is the largest f64 at most.
 pub fn closest_on_triangle(point: [f64; 3], corners: [[f64; 3]; 3], id: u32) -> ClosestPoint {
     let ([p, a, b, c], scale) = in_range([point, corners[0], corners[1], corners[2]]);
     let nearest = in_face(p, [a, b, c]).unwrap_or_else(|| on_border(p, [a, b, c]));
@@ -72,30 +72,38 @@ impl Nearest {
     }
 }
 
-/// The foot of the perpendicular from `p`, if it lies in the triangle.
+/// A sine of the angle at a, or a length of n, of which a triangle has no more is so narrow that its border is as near as
+/// its inside: to 2^-47 of the distance to the farthest corner, for no edge is longer than twice that.
+const NARROW: f64 = 1.0 / (1_u64 << 48) as f64;
+const NARROW_NORMAL: f64 = 1e-150;
+
+/// The foot of the perpendicular from `p`, if it lies in the triangle and that is not too narrow to have one.
 ///
-/// With n = e1 x e2, s = u·e1 + v·e2 + w·n is solved for u and v. In a thin triangle n is off by a
-/// part of about 2^-53 over the sine of the angle at a, and so are u and v; the solution for what is
-/// left of s corrects them by as many digits each time. A correction below 2^-26 of s leaves 2^-52.
+/// With n = e1 x e2, s = u·e1 + v·e2 + w·n is solved for u and v. n is off by about 2^-52 over the sine of the angle at
+/// a, here by 2^-3 of itself at most, and so are u and v. The solution for what is left of s corrects them by that share
+/// each time, until a correction is below 2^-49 of the triangle and s; then even less is left.
 fn in_face(p: DVec3, [a, b, c]: [DVec3; 3]) -> Option<Nearest> {
-    const ROUNDS: usize = 8;
+    const ROUNDS: usize = 24;
+    const ENOUGH: f64 = 1.0 / (1_u64 << 49) as f64;
     let (e1, e2, s) = (b - a, c - a, p - a);
     let n = e1.cross(e2);
-    let (for_u, for_v, scale) = (e2.cross(n), n.cross(e1), 1.0 / n.length_squared());
-    if !scale.is_finite() {
+    let sizes = [e1.length_squared(), e2.length_squared()];
+    let (length_squared, narrow) = (n.length_squared(), NARROW * NARROW * sizes[0] * sizes[1]);
+    if !(length_squared > narrow && length_squared > NARROW_NORMAL * NARROW_NORMAL) {
         return None;
     }
+    let (for_u, for_v, scale) = (e2.cross(n), n.cross(e1), 1.0 / length_squared);
     let (mut u, mut v, mut way) = (0.0, 0.0, s);
-    let enough = f64::EPSILON * s.length_squared();
+    let enough = ENOUGH * ENOUGH * s.length_squared().max(sizes[0]).max(sizes[1]);
     for _ in 0..ROUNDS {
         let (du, dv) = (way.dot(for_u) * scale, way.dot(for_v) * scale);
         (u, v) = (u + du, v + dv);
         way = s - (u * e1 + v * e2);
         if (du * e1 + dv * e2).length_squared() <= enough {
-            break;
+            return (u >= 0.0 && v >= 0.0 && u + v <= 1.0).then_some(Nearest { u, v, way });
         }
     }
-    (u >= 0.0 && v >= 0.0 && u + v <= 1.0).then_some(Nearest { u, v, way })
+    None
 }
 
 /// The nearest point of the three edges.
@@ -183,6 +191,27 @@ mod tests {
         assert_eq!((found.point, found.distance), ([3.0, 0.0, 0.0], 4.0));
         let found = closest_on_triangle([3.0, 4.0, 0.0], [[0.0; 3]; 3], 0);
         assert_eq!((found.point, found.distance), ([0.0; 3], 5.0));
+    }
+
+    /// The nearest point of triangles that are as narrow as f64 has them, from points on and beside them, against what
+    /// a search of the three weights finds.
+    #[test]
+    fn narrow_triangles_are_as_near_as_their_points() {
+        for (power, along) in (1..=53).flat_map(|power| [0.1, 0.4, 0.625].map(|at| (power, at))) {
+            let width = 2.0_f64.powi(-power);
+            let corners =
+                [[0.0; 3], [1.0, 1.0 + width / 2.0, 0.0], [1.0 + width, 1.0 + width, 0.0]];
+            for (height, beside) in
+                [(0.0, 0.0), (0.0, 0.1), (0.1 * width, 0.0), (1e-7, 0.3), (0.3, 0.0)]
+            {
+                let [a, b, c] = corners.map(DVec3::from);
+                let (u, v) = (along * (1.0 - beside), along * beside);
+                let on = a + u * (b - a) + v * (c - a);
+                let found = closest_on_triangle((on + DVec3::Z * height).into(), corners, 0);
+                let error = DISTANCE_ERROR * 2.0;
+                assert!((found.distance - height).abs() <= error, "2^-{power} {height}: {found:?}");
+            }
+        }
     }
 
     #[test]
