@@ -80,10 +80,11 @@ pub fn intersect_triangle<T: Coordinate>(
         && (is_good(2.0 * d_scale * edges) || is_good(terms(d, e2, e1)));
     let (t, u, v, front) = if trusted {
         let most_terms = 6.0 * q_scale * edges;
-        let t = if t_error(most_terms) <= RELATIVE_ERROR * volume.abs() && most_terms < 1e300 {
+        let error = t_error(most_terms, edges);
+        let t = if error <= RELATIVE_ERROR * volume.abs() && most_terms < 1e300 {
             not_vanished(volume / den)
         } else {
-            t_carefully(corners, ray, den, volume, terms(s, e1, e2))?
+            t_carefully(corners, ray, den, volume, (terms(s, e1, e2), edges))?
         };
         let inverse = 1.0 / den;
         (t, (u * inverse).clamp(0.0, 1.0), (v * inverse).clamp(0.0, 1.0), den > 0.0)
@@ -103,10 +104,11 @@ fn in_f64<T: Coordinate>(&[x, y, z]: &[T; 3]) -> DVec3 {
     DVec3::new(x.to_f64(), y.to_f64(), z.to_f64())
 }
 
-/// How far T may be off, from the sum of its terms' absolute values.
+/// How far T may be off, from the sum of its terms' absolute values, and from ē: what underflows in q is multiplied by
+/// an edge.
 #[inline]
-fn t_error(terms: f64) -> f64 {
-    TERM_ERROR * terms + 1e-290
+fn t_error(terms: f64, edges: f64) -> f64 {
+    TERM_ERROR * terms + f64::MIN_POSITIVE * (1.0 + edges)
 }
 
 /// t from a den that is good and a T that may not be; `None` if it surely is not in the interval.
@@ -116,9 +118,9 @@ fn t_carefully<T: Coordinate>(
     ray: &Ray<3>,
     den: f64,
     volume: f64,
-    terms: f64,
+    (terms, edges): (f64, f64),
 ) -> Option<f64> {
-    let t_error = t_error(terms);
+    let t_error = t_error(terms, edges);
     let ends = ((volume - t_error) / den, (volume + t_error) / den);
     let Interval { t_min, t_max } = ray.interval;
     if t_above(ends.0.max(ends.1)) < t_min || t_below(ends.0.min(ends.1)) > t_max {
