@@ -213,6 +213,8 @@ impl Seen {
         let edges = e1.abs().max(e2.abs()).max_element();
         let s_scale = edges.max(s.abs().max_element());
         let least_den = (s_scale * LEAST_BY_DISTANCE).max(edges * LEAST_BY_EDGE) * edges;
+        // The scalar test multiplies in another order, and rounds otherwise.
+        let least_den = least_den * (1.0 + 4.0 * f64::EPSILON);
         let terms = s_scale * edges * edges;
         let is_good = terms * LEAST_VOLUME + FAR_FROM_UNDERFLOW <= volume.abs();
         let volume = if is_good { volume } else { 0.0 };

@@ -19,9 +19,6 @@ use crate::traverse::wide::line::FARTHEST;
 use fearless_simd::prelude::*;
 use fearless_simd::u32x8;
 
-/// Rays to a target pass it at up to 2^-52 of their length: 2^24 times that.
-const BLUR: f32 = 1.0 / (1 << 28) as f32;
-
 /// Answers to the rays of a packet.
 pub(crate) enum Answers<'a> {
     Closest(&'a mut HitArrays),
@@ -79,13 +76,13 @@ impl<const ANY: bool> Packets<'_, ANY> {
             Common::Origin(center) => {
                 let (toward, _) = locals(simd, self.packet, range, center, local);
                 let frame = Frame::new(center, toward);
-                self.search(simd, (range, budget), Perspective { frame, blur: 0.0 }, &frame)
+                self.search(simd, (range, budget), Perspective::of_origin(frame), &frame)
             }
             Common::Target(center) => {
                 let (toward, farthest) = locals(simd, self.packet, range, center, local);
                 let frame = Frame::new(center, toward);
-                let blur = farthest * BLUR;
-                self.search(simd, (range, budget), Perspective { frame, blur }, &frame)
+                let projection = Perspective::of_target(frame, farthest);
+                self.search(simd, (range, budget), projection, &frame)
             }
             Common::Direction(direction) => {
                 let [x, y, z] = self.packet.each();

@@ -27,7 +27,24 @@ pub(super) struct Perspective {
     pub(super) frame: Frame,
     /// What the distance of triangles counts as at least in error bounds, because rays pass the centre at
     /// up to 2^-24 of that.
-    pub(super) blur: f32,
+    blur: f32,
+}
+
+/// Rays to a target pass it at up to 2^-52 of their length: 2^24 times that.
+const BLUR: f32 = 1.0 / (1 << 28) as f32;
+
+impl Perspective {
+    /// Of rays that begin at the centre.
+    #[inline(always)]
+    pub(super) fn of_origin(frame: Frame) -> Self {
+        Self { frame, blur: 0.0 }
+    }
+
+    /// Of rays that go to it, from as far away as that.
+    #[inline(always)]
+    pub(super) fn of_target(frame: Frame, farthest: f32) -> Self {
+        Self { frame, blur: farthest * BLUR }
+    }
 }
 
 impl Projection for Perspective {
@@ -111,9 +128,10 @@ impl Projection for Perspective {
             | bit(self.frame.sign < 0.0, k)
     }
 
+    /// Rays to a target that begin farther away pass it at more than the frustum's margins.
     #[inline(always)]
     fn is_within(&self, distance: f32) -> bool {
-        self.frame.distance() < distance
+        self.frame.distance() < distance && self.blur < distance * BLUR
     }
 
     #[inline(always)]

@@ -21,6 +21,9 @@ const TARGET_ERROR: f64 = 1.0 / (1_u64 << 37) as f64;
 /// rounded, so that rays pass the target at up to 2^-52 of their length.
 const NEAR_TARGET: f64 = 1.0 / (1 << 24) as f64;
 
+/// A part that begins nearer to the target begins at it, as far as bounds go: where rays pass the target counts there.
+const AT_TARGET: f64 = 1.0 / (1 << 30) as f64;
+
 /// Where the open parts of eight rays begin and end, counted from the packet's centre in units of their
 /// directions: not above and not below.
 #[derive(Clone, Copy)]
@@ -99,7 +102,8 @@ fn ends<S: Lanes>(simd: S, packet: &RayPacket<'_>, index: usize) -> Ends<S> {
                 if begin < 0.0 { begin } else { begin.max(NEAR_TARGET) + TARGET_ERROR };
             // An infinite end is not off.
             let off = if end.is_finite() { TARGET_ERROR * (1.0 + end.abs()) } else { 0.0 };
-            [begin - TARGET_ERROR, surely_begun, end - off, end + off]
+            let begun = if begin < AT_TARGET { begin.min(0.0) } else { begin };
+            [begun - TARGET_ERROR, surely_begun, end - off, end + off]
         } else {
             [t_min, t_min, t_max, t_max]
         }
