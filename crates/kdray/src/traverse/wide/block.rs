@@ -35,6 +35,8 @@ pub(super) struct BlockTest<S: Lanes> {
     pub(super) facing: f32x8<S>,
     /// How far U, V and W may be off.
     edge_error: f32x8<S>,
+    /// How far den may be off, or more: where it is not above, its sign is not sure.
+    den_error: f32x8<S>,
     /// How far T − t · den may be off for t = t_near, and for t = t_far.
     near_error: f32x8<S>,
     far_error: f32x8<S>,
@@ -95,6 +97,7 @@ impl<S: Lanes> BlockTest<S> {
             den: den.abs(),
             facing: den,
             edge_error,
+            den_error: if T::FITS_TREE { t_error } else { edge_error },
             near_error,
             far_error,
             origin_error,
@@ -111,7 +114,9 @@ impl<S: Lanes> BlockTest<S> {
                 let inside = (self.u.min(self.v).min(self.w) + self.edge_error).simd_ge(0.0);
                 let behind = self.den.mul_sub(aim.t_near, self.near_error).simd_le(self.volume);
                 let before = self.den.mul_add(aim.t_far, self.far_error).simd_ge(self.volume);
-                inside & behind & before
+                // With a wrong sign of den T has one too, and may seem to be before t = 0, at any t.
+                let turned = self.den.simd_le(self.den_error);
+                inside & (behind & before | turned)
             },
         )
     }
@@ -160,8 +165,9 @@ impl<S: Lanes> BlockTest<S> {
 /// cross product and three times in the dot product, and the terms sum to 2·D·ē·M: 16 u D ē M. V
 /// likewise; den, whose terms sum to 2·D·m·n, 16 u D m n. W = (den − U) − V gathers all three, and
 /// two more roundings: 38 u D ē (M + ē). T has terms of 6·m·n·M in sum and eight roundings:
-/// 48 u m n M. T is compared with t·den, to which den adds 16 u D m n t, twice that where its sign is
-/// not sure, and the product a rounding of it. (m·n, not ē²: of slender triangles it is much less.)
+/// 48 u m n M. T is compared with t·den, to which den adds 16 u D m n t, and the product a rounding of it.
+/// (m·n, not ē²: of slender triangles it is much less.) Where the sign of den is not sure, that of T is not
+/// either, and T tells nothing: see [`BlockTest::candidates`].
 ///
 /// An origin that is not an f32 is off by E: U by 2·D·ē·E, T by 6·m·n·E. With M not below
 /// E / (2 u), as [`Aim`] sees to, that is at most 4 u D ē M, for W 8 u D ē M, and 12 u m n M more: 46
