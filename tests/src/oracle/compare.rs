@@ -8,7 +8,7 @@ use num_rational::BigRational;
 use num_traits::Signed;
 use std::cmp::Ordering;
 
-/// The documented relative error of t is at most 2 to the power of minus this.
+/// The documented relative error of t is at most 2 to the power of minus this, but near the smallest f64.
 const T_BITS: usize = 39;
 
 /// The documented error of u and v.
@@ -97,8 +97,9 @@ fn close(exact: &BigRational, other: &BigRational) -> bool {
     (exact - other).abs() <= error_bound(exact)
 }
 
+/// Of what is nearly nothing, the distance of two f64.
 fn error_bound(t: &BigRational) -> BigRational {
-    t.abs() / (BigInt::from(1) << T_BITS)
+    (t.abs() / (BigInt::from(1) << T_BITS)).max(rational(f64::from_bits(1)))
 }
 
 /// How a t lies to an interval whose ends are told apart no better than the error bound allows.

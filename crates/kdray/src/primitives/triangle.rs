@@ -33,8 +33,8 @@ pub(crate) const BARYCENTRIC_ERROR: f64 = 1.0 / (1u64 << 31) as f64;
 /// The hit of `ray` on one triangle, if it counts by `rule` and its t lies in the ray's interval.
 ///
 /// Möller and Trumbore's test (1997) with s = o − a; the signs of U, V and W are those of the real
-/// numbers, and t errs by a relative 2^-39 at most, usually by 2^-50. Its sign is exact, down to
-/// the smallest f64; beyond the largest f64 there is no hit. u and v err by 2^-30 at most. A
+/// numbers, and t errs by a relative 2^-39 at most, usually by 2^-50, and near the smallest f64 by one of
+/// these. Its sign is exact, down to the smallest f64; beyond the largest f64 there is no hit. u and v err by 2^-30 at most. A
 /// triangle without area or seen edge-on is not hit.
 ///
 /// Corners in f32 and the same in f64 give the same hit.
