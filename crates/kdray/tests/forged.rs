@@ -191,6 +191,19 @@ fn a_chain_deeper_than_the_stacks_is_refused() {
     assert!(matches!(error, FileError::Tree(TreeError::TooDeep { .. })), "{error}");
 }
 
+/// Cells without extent can be as many as a file holds, and each primitive in their plane lies in all of them.
+#[test]
+fn planes_in_the_faces_of_their_cells_are_refused() {
+    let honest = Forgery::of(300);
+    let axis = (honest.word(Nodes, 1) & 3) as usize;
+    for face in [80 + 4 * axis, 92 + 4 * axis] {
+        let bound = honest.bytes[face..face + 4].try_into().expect("four bytes");
+        let error = found(&honest.clone().with_word(Nodes, 0, u32::from_le_bytes(bound)));
+        let is_named = matches!(error, FileError::Tree(TreeError::SplitOutsideCell { .. }));
+        assert!(is_named, "{error}");
+    }
+}
+
 #[test]
 fn links_of_the_wide_tree_that_lead_elsewhere_are_refused() {
     let honest = Forgery::of(300);

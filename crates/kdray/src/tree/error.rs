@@ -55,9 +55,9 @@ pub enum TreeError {
         /// K.
         dimensions: usize,
     },
-    /// A split that is not finite or lies outside its node's cell, so that the children do not
-    /// partition it.
-    #[error("node {node} is cut on axis {axis} at {split}, outside its cell")]
+    /// A split that does not lie strictly inside its node's cell, so that the children do not partition
+    /// it, or one of them is flat.
+    #[error("node {node} is cut on axis {axis} at {split}, which is not inside its cell")]
     SplitOutsideCell {
         /// The node.
         node: u32,
@@ -135,4 +135,7 @@ pub enum TreeError {
         /// The primitive.
         primitive: u32,
     },
+    /// To find all primitives in the leaves takes so many steps that the tree was surely made to be slow.
+    #[error("it takes more than {0} steps to check the tree; build it anew")]
+    TooManySteps(u64),
 }

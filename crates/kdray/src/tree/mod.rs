@@ -1,5 +1,6 @@
 //! The canonical kd-tree, from which everything else is derived.
 
+mod content;
 mod cost;
 mod error;
 mod node;

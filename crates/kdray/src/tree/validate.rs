@@ -1,5 +1,6 @@
 //! What must be true of every tree.
 
+use super::content::ContentCheck;
 use super::{Cell, KdTree, MAX_DEPTH, NodeKind, TreeError};
 use crate::geometry::Aabb;
 use crate::primitives::Primitives;
@@ -9,7 +10,8 @@ impl<const K: usize> KdTree<K> {
     ///
     /// - nodes stand in depth-first order, none is missing or left over, and none is deeper than
     ///   [`MAX_DEPTH`];
-    /// - splits lie in their nodes' cells, so children partition their parents;
+    /// - splits lie strictly inside their nodes' cells, so children partition their parents, and no
+    ///   cell is flat that the root's box does not make flat;
     /// - the leaves' lists tile the references; their ids exist and rise;
     /// - every primitive lies in the root's box, and every point of it in the closed cell of some
     ///   leaf that lists it; no leaf lists a primitive that has no part in its closed cell.
@@ -17,7 +19,7 @@ impl<const K: usize> KdTree<K> {
     /// The last two are checked up to two units in the last place of a coordinate, and 2^-38 of the
     /// largest one, because clipped bounds are rounded. They do not rely on how trees are built:
     /// each primitive is clipped anew on its way down from the root. Time grows with the number of
-    /// references.
+    /// references; a tree that was made so that it would take longer is refused, too.
     ///
     /// # Errors
     /// See [`TreeError`].
@@ -25,10 +27,10 @@ impl<const K: usize> KdTree<K> {
         let leaves = self.check_nodes()?;
         self.check_lists(&leaves, primitives.count())?;
         self.check_bounds(primitives)?;
-        let largest = largest_coordinate(&self.bounds);
-        let check = ContentCheck { tree: self, primitives, largest };
+        let check = ContentCheck::new(self, primitives);
         first_error(leaves.len(), |leaf| check.touches_what_it_lists(&leaves[leaf]))?;
-        first_error(primitives.count(), |id| check.is_listed_everywhere(id as u32))
+        first_error(primitives.count(), |id| check.is_listed_everywhere(id as u32))?;
+        check.took_few_steps()
     }
 
     /// The leaves in order, if the nodes are a tree of cells within cells.
@@ -58,7 +60,7 @@ impl<const K: usize> KdTree<K> {
             if axis >= K {
                 return Err(TreeError::BadAxis { node, axis, dimensions: K });
             }
-            if !(bounds.min[axis] <= split && split <= bounds.max[axis] && split.is_finite()) {
+            if !(bounds.min[axis] < split && split < bounds.max[axis]) {
                 return Err(TreeError::SplitOutsideCell { node, axis, split });
             }
             let (lower, upper) = bounds.split(axis, split);
@@ -137,100 +139,6 @@ fn first_error(
     check: impl Fn(usize) -> Result<(), TreeError>,
 ) -> Result<(), TreeError> {
     (0..end).try_for_each(check)
-}
-
-/// The checks that look at the primitives' shapes.
-struct ContentCheck<'a, P, const K: usize> {
-    tree: &'a KdTree<K>,
-    primitives: &'a P,
-    /// The largest absolute coordinate.
-    largest: f32,
-}
-
-/// How far bounds at `x` that were clipped among coordinates up to `largest` may lie from the true
-/// ones, with room to spare: they are computed in f64 and rounded to f32.
-fn slack(x: f32, largest: f32) -> f32 {
-    const IN_F64: f32 = 1.0 / (1_u64 << 38) as f32;
-    2.0 * f32::EPSILON * x.abs() + IN_F64 * largest + f32::from_bits(2)
-}
-
-impl<P: Primitives<K>, const K: usize> ContentCheck<'_, P, K> {
-    fn touches_what_it_lists(&self, leaf: &Cell<K>) -> Result<(), TreeError> {
-        let Cell { node, bounds, .. } = *leaf;
-        let grown = Aabb {
-            min: bounds.min.map(|x| x - slack(x, self.largest)),
-            max: bounds.max.map(|x| x + slack(x, self.largest)),
-        };
-        for &primitive in self.tree.leaf_primitives(node) {
-            if self.primitives.clipped_bounds(primitive, &grown).is_none() {
-                return Err(TreeError::DoesNotTouch { node, primitive });
-            }
-        }
-        Ok(())
-    }
-
-    /// Whether each part of the primitive lies in the cell of a leaf that lists it.
-    fn is_listed_everywhere(&self, id: u32) -> Result<(), TreeError> {
-        match self.primitives.clipped_bounds(id, &self.tree.bounds) {
-            Some(part) => self.is_part_listed(id, part, vec![0], None),
-            None => Ok(()),
-        }
-    }
-
-    /// The same for its part in the box `part`, which lies in the cells of all `nodes`. Goes down
-    /// in one of them after the other. Where a plane cuts the part, the pieces are looked at apart;
-    /// a part in the plane lies in both children, either of which may list it.
-    ///
-    /// A part that is missed is looked for once more, with slack for coordinates up to `largest`:
-    /// it may be there by a rounding error only. Then a part that sticks out of a cell by less than
-    /// the slack lies in it, too.
-    fn is_part_listed(
-        &self,
-        id: u32,
-        part: Aabb<K>,
-        mut nodes: Vec<u32>,
-        largest: Option<f32>,
-    ) -> Result<(), TreeError> {
-        let mut leaf = 0;
-        while let Some(node) = nodes.pop() {
-            let NodeKind::Inner { axis, split, above } = self.tree.nodes[node as usize].kind()
-            else {
-                if self.tree.leaf_primitives(node).binary_search(&id).is_ok() {
-                    return Ok(());
-                }
-                leaf = node;
-                continue;
-            };
-            let slack = largest.map_or(0.0, |largest| slack(split, largest));
-            let lies_below = part.max[axis] - split <= slack;
-            let lies_above = split - part.min[axis] <= slack;
-            if (part.min[axis] < split && split < part.max[axis]) && !(lies_below && lies_above) {
-                nodes.push(node);
-                let (below, above) = part.split(axis, split);
-                return [below, above].into_iter().try_for_each(|piece| {
-                    match self.primitives.clipped_bounds(id, &piece) {
-                        Some(shape) => {
-                            let part = shape.intersection(&piece);
-                            self.is_part_listed(id, part, nodes.clone(), largest)
-                        }
-                        None => Ok(()),
-                    }
-                });
-            }
-            nodes.extend(lies_above.then_some(above));
-            nodes.extend(lies_below.then_some(node + 1));
-        }
-        let missing = TreeError::Missing { node: leaf, primitive: id };
-        if largest.is_some() {
-            return Err(missing);
-        }
-        let largest = largest_coordinate(&self.primitives.bounds(id));
-        self.is_part_listed(id, part, vec![0], Some(largest)).map_err(|_| missing)
-    }
-}
-
-fn largest_coordinate<const K: usize>(aabb: &Aabb<K>) -> f32 {
-    aabb.min.iter().chain(&aabb.max).fold(0.0, |largest, x| largest.max(x.abs()))
 }
 
 #[cfg(test)]
@@ -354,7 +262,8 @@ mod tests {
     #[test]
     fn a_tree_deeper_than_the_stack_is_named() {
         let chain = |splits: u32| {
-            let inner = (0..splits).map(|i| Node::inner(0, 0.0, 2 * splits - i));
+            let split = |i: u32| 0.5_f32.powi(i as i32 + 1);
+            let inner = (0..splits).map(|i| Node::inner(0, split(i), 2 * splits - i));
             let nodes = inner.chain((0..=splits).map(|_| Node::leaf(0, 0))).collect();
             KdTree {
                 bounds: Aabb { min: [0.0; 3], max: [1.0; 3] },
