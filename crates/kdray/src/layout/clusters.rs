@@ -12,10 +12,41 @@ const LEAF: usize = 8;
 /// each.
 #[derive(Clone, Debug, Default)]
 pub struct Clusters {
-    /// The power of two by which clusters are larger than the mesh, so that nothing overflows.
-    scale: f64,
+    space: ClusterSpace,
     clusters: Vec<Cluster>,
     ids: Vec<u32>,
+}
+
+/// The coordinates of clusters: those of the mesh, times a power of two, so that nothing overflows. They are
+/// the same for f32 and f64 but for that.
+#[derive(Clone, Copy, Debug, Default)]
+struct ClusterSpace {
+    /// The power of two.
+    scale: f64,
+    /// What is taken away first: on an axis where the mesh is flat, and so far from zero that products would
+    /// overflow, its place; elsewhere zero.
+    flat: DVec3,
+}
+
+impl ClusterSpace {
+    fn of<T: Coordinate>(mesh: &TriangleMesh<T>) -> Self {
+        /// In units of the mesh's size. What lies farther away, by a unit in the last place or more, is flat; f32
+        /// numbers never do.
+        const FAR: f64 = 1e150;
+        let (scale, center) = (mesh.tree_space().scale(), DVec3::from(mesh.tree_space().center()));
+        let is_near = (center * scale).abs().cmple(DVec3::splat(FAR));
+        Self { scale, flat: DVec3::select(is_near, DVec3::ZERO, center) }
+    }
+
+    fn point(&self, point: [f64; 3]) -> DVec3 {
+        // From beyond the largest f64 all looks as from there.
+        ((DVec3::from(point) - self.flat) * self.scale).clamp(DVec3::MIN, DVec3::MAX)
+    }
+
+    /// The corners of a triangle.
+    fn corners<T: Coordinate>(&self, mesh: &TriangleMesh<T>, id: u32) -> [DVec3; 3] {
+        mesh.corners(id).map(|p| self.point(p.map(T::to_f64)))
+    }
 }
 
 /// A part of a mesh, and what it looks like from afar.
@@ -46,21 +77,22 @@ impl Clusters {
     /// out. O(N log N); takes 56 bytes a triangle more while it works.
     pub fn of<T: Coordinate>(mesh: &TriangleMesh<T>) -> Self {
         let ids = 0..mesh.count() as u32;
-        let mut pieces: Vec<Piece> = ids.filter_map(|id| Piece::of(mesh, id)).collect();
+        let space = ClusterSpace::of(mesh);
+        let corners = |id: u32| space.corners(mesh, id);
+        let mut pieces: Vec<Piece> =
+            ids.filter_map(|id| Piece::of(id, corners(id), || has_tiny_area(mesh, id))).collect();
         let mut clusters = Vec::with_capacity(pieces.len() / 2);
         if !pieces.is_empty() {
             let last = pieces.len();
-            push_cluster(mesh, &mut pieces, (0, last), &mut clusters);
+            push_cluster(&corners, &mut pieces, (0, last), &mut clusters);
         }
         clusters.shrink_to_fit();
-        let scale = mesh.tree_space().scale();
-        Self { scale, clusters, ids: pieces.iter().map(|piece| piece.id).collect() }
+        Self { space, clusters, ids: pieces.iter().map(|piece| piece.id).collect() }
     }
 
     /// Where a point of the mesh is among the clusters.
     pub(crate) fn place(&self, point: [f64; 3]) -> DVec3 {
-        // From beyond the largest f64 all looks as from there.
-        (DVec3::from(point) * self.scale).clamp(DVec3::MIN, DVec3::MAX)
+        self.space.point(point)
     }
 
     /// The clusters in depth-first order: those within one stand behind it.
@@ -82,11 +114,11 @@ impl Cluster {
 }
 
 impl Piece {
-    /// `None` for a triangle without area.
-    fn of<T: Coordinate>(mesh: &TriangleMesh<T>, id: u32) -> Option<Self> {
-        let [a, b, c] = corners(mesh, id);
+    /// `None` for a triangle without area; of one whose area is computed as zero it is asked whether it is only
+    /// tiny.
+    fn of(id: u32, [a, b, c]: [DVec3; 3], is_tiny: impl FnOnce() -> bool) -> Option<Self> {
         let normal = 0.5 * (b - a).cross(c - a);
-        let counts = normal != DVec3::ZERO || has_tiny_area(mesh, id);
+        let counts = normal != DVec3::ZERO || is_tiny();
         counts.then_some(Self { id, middle: (a + b + c) / 3.0, normal })
     }
 }
@@ -97,23 +129,16 @@ fn has_tiny_area<T: Coordinate>(mesh: &TriangleMesh<T>, id: u32) -> bool {
     (b - a).cross(c - a) != DVec3::ZERO
 }
 
-/// The corners of a triangle, in the mesh's coordinates but for the scale: these are the same for f32 and
-/// f64.
-fn corners<T: Coordinate>(mesh: &TriangleMesh<T>, id: u32) -> [DVec3; 3] {
-    let scale = mesh.tree_space().scale();
-    mesh.corners(id).map(|p| DVec3::from(p.map(T::to_f64)) * scale)
-}
-
 /// Appends the cluster of `pieces`, which stand from `first` to `last` in the list of all, and those
 /// within it: halves by the number of triangles, across the longest side of the box of their middles.
-fn push_cluster<T: Coordinate>(
-    mesh: &TriangleMesh<T>,
+fn push_cluster(
+    corners: &impl Fn(u32) -> [DVec3; 3],
     pieces: &mut [Piece],
     (first, last): (usize, usize),
     clusters: &mut Vec<Cluster>,
 ) {
     let place = clusters.len();
-    clusters.push(cluster(mesh, pieces, (first, last)));
+    clusters.push(cluster(corners, pieces, (first, last)));
     if clusters[place].is_cut() {
         let axis = longest_axis(pieces);
         let half = pieces.len() / 2;
@@ -122,21 +147,21 @@ fn push_cluster<T: Coordinate>(
             p.middle[axis].total_cmp(&q.middle[axis]).then(p.id.cmp(&q.id))
         });
         let (low, high) = pieces.split_at_mut(half);
-        push_cluster(mesh, low, (first, first + half), clusters);
-        push_cluster(mesh, high, (first + half, last), clusters);
+        push_cluster(corners, low, (first, first + half), clusters);
+        push_cluster(corners, high, (first + half, last), clusters);
     }
     clusters[place].next = clusters.len() as u32;
 }
 
-fn cluster<T: Coordinate>(
-    mesh: &TriangleMesh<T>,
+fn cluster(
+    corners: &impl Fn(u32) -> [DVec3; 3],
     pieces: &[Piece],
     (first, last): (usize, usize),
 ) -> Cluster {
     let center = middle_of(pieces);
     let (mut moments, mut radius) = (Moments::default(), 0.0_f64);
     for piece in pieces {
-        let offsets = corners(mesh, piece.id).map(|p| p - center);
+        let offsets = corners(piece.id).map(|p| p - center);
         moments.add(piece.normal, offsets);
         radius = offsets.iter().fold(radius, |most, offset| most.max(offset.length()));
     }
