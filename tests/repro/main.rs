@@ -3,6 +3,7 @@
 mod angles_beside_corners;
 mod areas_that_vanish;
 mod crossings_where_rays_begin;
+mod determinants_out_of_range;
 mod far_planes;
 mod hits_of_dead_rays;
 mod lanes_behind_the_last_ray;

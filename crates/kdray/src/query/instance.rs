@@ -1,6 +1,6 @@
 //! Placed copies of scenes.
 
-use crate::geometry::{Aabb, Coordinate, TreeSpace};
+use crate::geometry::{Aabb, Coordinate, TreeSpace, inverse_power_of_two};
 use crate::primitives::Hit;
 use glam::{DAffine3, DMat3, DVec3};
 use std::cmp::Ordering;
@@ -137,7 +137,13 @@ impl Place {
         corners: Option<[[f64; 3]; 2]>,
     ) -> Result<Self, InstanceError> {
         let to_world = affine(&instance.to_world);
-        let to_object = to_world.inverse();
+        // Determinants of very large and very small matrices are out of range; powers of two change no digit.
+        let unit = inverse_power_of_two(largest(&to_world.matrix3));
+        let (scaled, scaled_inverse) =
+            (to_world.matrix3 * unit, (to_world.matrix3 * unit).inverse());
+        let inverse = scaled_inverse * unit;
+        let to_object =
+            DAffine3 { matrix3: inverse, translation: -(inverse * to_world.translation) };
         let inverse_error = norm(&(to_world.matrix3 * to_object.matrix3 - DMat3::IDENTITY));
         // A NaN is refused as well.
         if !(inverse_error <= INVERSE_ERROR && to_world.is_finite() && to_object.is_finite()) {
@@ -150,7 +156,7 @@ impl Place {
             let corner = to_world.transform_point3(corner);
             (low, high) = (low.min(corner), high.max(corner));
         }
-        let uneven = norm(&to_world.matrix3) * norm(&to_object.matrix3);
+        let uneven = norm(&scaled) * norm(&scaled_inverse);
         let farthest = low.abs().max(high.abs()) + to_world.translation.abs();
         let error = (inverse_error + CARRYING_ERROR * uneven) * farthest.element_sum();
         if (low - error).is_finite() && (high + error).is_finite() {
@@ -178,6 +184,11 @@ impl Place {
 fn affine(rows: &[[f64; 4]; 3]) -> DAffine3 {
     let column = |k: usize| DVec3::new(rows[0][k], rows[1][k], rows[2][k]);
     DAffine3::from_cols(column(0), column(1), column(2), column(3))
+}
+
+/// The largest component, in size.
+fn largest(matrix: &DMat3) -> f64 {
+    matrix.to_cols_array().iter().fold(0.0, |largest, x| largest.max(x.abs()))
 }
 
 /// At least the most that a matrix stretches any direction: Frobenius' norm.
