@@ -124,7 +124,7 @@ fn mesh<T: Coordinate>(vertices: &[T], faces: &[u32]) -> PyResult<TriangleMesh<T
 /// That a mesh cannot be used, by the name of the argument that is to blame.
 pub(crate) fn refused(error: MeshError) -> PyErr {
     let name = match error {
-        MeshError::NonFiniteVertex { .. } => "vertices",
+        MeshError::NonFiniteVertex { .. } | MeshError::TooManyVertices(_) => "vertices",
         _ => "faces",
     };
     ArgumentError::new_err(format!("{name}: {error}"))

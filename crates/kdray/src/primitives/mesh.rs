@@ -50,21 +50,21 @@ pub enum MeshError {
     /// There are 2^30 triangles or more.
     #[error("the mesh has {0} triangles, but at most 1073741823 fit one tree; split the mesh")]
     TooManyTriangles(usize),
+    /// There are 2^32 vertices or more, which indices cannot number.
+    #[error(
+        "the mesh has {0} vertices, but at most 4294967295 fit one mesh; drop those that no triangle uses, or split the mesh"
+    )]
+    TooManyVertices(usize),
 }
 
 impl<T: Coordinate> TriangleMesh<T> {
-    /// A tree's indices have 30 bits.
-    const MAX_TRIANGLES: usize = 1 << 30;
-
     /// A mesh of `triangles` over `vertices`. Vertices that no triangle uses may be anything.
     ///
     /// # Errors
     /// The first triangle that has an index out of range or a vertex that is not finite; 2^30
-    /// triangles or more.
+    /// triangles or more, or 2^32 vertices or more.
     pub fn new(vertices: Vec<[T; 3]>, triangles: Vec<[u32; 3]>) -> Result<Self, MeshError> {
-        if triangles.len() >= Self::MAX_TRIANGLES {
-            return Err(MeshError::TooManyTriangles(triangles.len()));
-        }
+        check_counts(vertices.len(), triangles.len())?;
         for (index, triangle) in triangles.iter().enumerate() {
             check_triangle(&vertices, index, triangle)?;
         }
@@ -76,7 +76,7 @@ impl<T: Coordinate> TriangleMesh<T> {
     /// they had. The others keep their order; their ids close the gaps.
     ///
     /// # Errors
-    /// Only that 2^30 triangles or more are left.
+    /// Only that 2^30 triangles or more are left, or that there are 2^32 vertices or more.
     pub fn new_dropping_bad(
         vertices: Vec<[T; 3]>,
         mut triangles: Vec<[u32; 3]>,
@@ -103,9 +103,7 @@ impl<T: Coordinate> TriangleMesh<T> {
     ) -> Result<Self, MeshError> {
         let vertices: Vec<[T; 3]> = soup.into_iter().flatten().map(Into::into).collect();
         let count = vertices.len() / 3;
-        if count >= Self::MAX_TRIANGLES {
-            return Err(MeshError::TooManyTriangles(count));
-        }
+        check_counts(vertices.len(), count)?;
         let triangles = (0..count as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]);
         Self::new(vertices, triangles.collect())
     }
@@ -186,9 +184,7 @@ impl<T: Coordinate> TriangleMesh<T> {
         vertices: Store<[T; 3]>,
         triangles: Store<[u32; 3]>,
     ) -> Result<Self, MeshError> {
-        if triangles.len() >= Self::MAX_TRIANGLES {
-            return Err(MeshError::TooManyTriangles(triangles.len()));
-        }
+        check_counts(vertices.len(), triangles.len())?;
         let largest = triangles.as_flattened().iter().fold(0, |largest, &index| index.max(largest));
         let finite =
             vertices.as_flattened().iter().fold(true, |all, x| all & x.to_f64().is_finite());
@@ -210,6 +206,17 @@ impl<T: Coordinate> TriangleMesh<T> {
     /// The triangles, to be saved.
     pub(crate) fn triangle_store(&self) -> &Store<[u32; 3]> {
         &self.triangles
+    }
+}
+
+/// Whether indices can number so many: those of a tree have 30 bits.
+fn check_counts(vertices: usize, triangles: usize) -> Result<(), MeshError> {
+    if triangles >= 1 << 30 {
+        Err(MeshError::TooManyTriangles(triangles))
+    } else if u32::try_from(vertices).is_err() {
+        Err(MeshError::TooManyVertices(vertices))
+    } else {
+        Ok(())
     }
 }
 
@@ -284,6 +291,18 @@ mod tests {
         assert!(TriangleMesh::new(vertices.clone(), vec![[0, 1, 2]]).is_ok(), "unused vertex");
         let nan = TriangleMesh::new(vertices, vec![[0, 1, 2], [3, 1, 2]]);
         assert_eq!(nan, Err(MeshError::NonFiniteVertex { triangle: 1, vertex: 3 }));
+    }
+
+    #[test]
+    fn what_indices_cannot_number_is_refused() {
+        let (vertices, triangles) = (u32::MAX as usize, (1 << 30) - 1);
+        assert_eq!(check_counts(vertices, triangles), Ok(()));
+        assert_eq!(
+            check_counts(vertices, triangles + 1),
+            Err(MeshError::TooManyTriangles(triangles + 1))
+        );
+        let Some(more) = vertices.checked_add(1) else { return };
+        assert_eq!(check_counts(more, 1), Err(MeshError::TooManyVertices(more)));
     }
 
     #[test]
