@@ -117,8 +117,10 @@ mod tests {
             let through =
                 count([p, corner], HitRule::Crossing) + count([corner, q], HitRule::Crossing);
             assert_eq!(through, 1, "{d:?}");
+            // Another end on the side of p.
+            let r = [p[0] + corner[0], p[1] + corner[1]];
             let bounce =
-                count([p, corner], HitRule::Crossing) + count([corner, p], HitRule::Crossing);
+                count([p, corner], HitRule::Crossing) + count([corner, r], HitRule::Crossing);
             assert_eq!(bounce % 2, 0, "{d:?}");
         }
     }
