@@ -3,7 +3,7 @@
 use super::Interval;
 
 /// How far, relative to t, the computed parameter of a plane (three roundings in f64) or of a hit
-/// (2^-39 at most, see [`crate::exact`]) may be from the exact one, with room to spare.
+/// (2^-39 at most, see [`crate::primitives::intersect_triangle`]) may be from the exact one, with room to spare.
 const RELATIVE_SLACK: f64 = 1.0 / (1u64 << 38) as f64;
 
 /// The same for parameters so small that they have lost digits to underflow.

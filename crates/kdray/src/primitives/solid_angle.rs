@@ -12,8 +12,10 @@ const LEAST: f64 = 1e-100;
 /// The solid angle that a triangle covers seen from `point`, as a share of the whole sphere:
 /// positive from behind, negative from the front, zero in the triangle's plane.
 ///
-/// Van Oosterom and Strackee's formula (1983). Its sign is exact: near a triangle, where the share
-/// leaps from a half to minus a half, the side that the point is on is decided without rounding.
+/// Van Oosterom and Strackee's formula (1983). Where a quarter of the sphere or more is covered, near a
+/// triangle, the share leaps from a half to minus a half at the plane: there its sign is exact, and it is zero in
+/// the plane exactly, for the side that the point is on is decided without rounding. Farther away it goes
+/// through zero without a leap, and in the plane may be off by rounding, either way.
 pub fn solid_angle(point: [f64; 3], corners: [[f64; 3]; 3]) -> f64 {
     let ([p, a, b, c], _) = in_range([point, corners[0], corners[1], corners[2]]);
     let mut ways = [a - p, b - p, c - p];

@@ -15,7 +15,9 @@ impl<T: Precision> Scene<T> {
     ///
     /// The triangle that the point lies on is not met again, and if the point lies on its edge or
     /// in its corner, nor are the others there: all triangles that have the same corners, of those
-    /// whose weight is above 2^-30. No distance is too small to count.
+    /// whose weight is above 2^-30. Any other surface counts, however near; but the way begins at the
+    /// point rounded to f64, so one that is nearer than some units in the last place of the point's
+    /// coordinates may be behind it.
     ///
     /// `None` if there is no surface on the way, the triangle has no area, there is no such
     /// triangle, or the weights are not from 0 to 1, give or take 2^-30.

@@ -3,7 +3,7 @@
 //! [`LeafWalk`] is the one traversal (S11): closest, any and all hits differ only in what they do
 //! with the leaves that it yields. The walk is *conservative*: intervals are closed and widened by
 //! 2^-38 of t, so that neither the rounding of a plane's t nor that of a hit's t (2^-39 at most,
-//! see [`crate::exact`]) keeps it from a leaf whose cell holds a hit.
+//! see [`crate::primitives::intersect_triangle`]) keeps it from a leaf whose cell holds a hit.
 
 mod all_hits;
 mod cell_walk;

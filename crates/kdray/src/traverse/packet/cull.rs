@@ -11,6 +11,11 @@ use crate::geometry::{Aabb, Common};
 use crate::primitives::{Balls, Intersect, TriangleMesh};
 
 /// Primitives of which a frustum can tell that none of its rays hits them.
+///
+/// Packets see rays as they are: primitives that override [`ray_in_tree`] would lose hits, and must not implement
+/// this.
+///
+/// [`ray_in_tree`]: crate::primitives::Primitives::ray_in_tree
 pub trait Cull: Intersect<3> {
     /// Whether surely no ray in the frustum hits the primitive. The default looks at its bounding
     /// box; a tighter answer saves tests.
