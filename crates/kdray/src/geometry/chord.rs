@@ -1,6 +1,6 @@
 //! Where a line passes a ball.
 
-use super::Ray;
+use super::{Ray, power_of_two_below};
 
 /// The part of a line inside a ball.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,8 +45,7 @@ fn largest<const K: usize>(v: &[f64; K]) -> f64 {
 
 /// The power of two that x is one to two times, for x not below the smallest normal number.
 fn magnitude(x: f64) -> f64 {
-    const EXPONENT: u64 = 0x7ff << 52;
-    f64::from_bits(x.max(f64::MIN_POSITIVE).to_bits() & EXPONENT)
+    power_of_two_below(x.max(f64::MIN_POSITIVE))
 }
 
 #[cfg(test)]

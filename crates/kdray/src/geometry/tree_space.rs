@@ -1,6 +1,6 @@
 //! The coordinates that the trees over f64 meshes are in.
 
-use super::{Aabb, Coordinate, Ray};
+use super::{Aabb, Coordinate, Ray, inverse_power_of_two};
 
 /// The coordinates of a tree: a point of the mesh less a centre, times a power of two.
 ///
@@ -99,14 +99,6 @@ impl TreeSpace {
             && direction.iter().any(|d| d.abs() > LEAST);
         fits.then_some(Ray { origin, direction, interval: ray.interval })
     }
-}
-
-/// The power of two that makes `x` one to two, as far as there is one; 1 for zero.
-pub(crate) fn inverse_power_of_two(x: f64) -> f64 {
-    const EXPONENT: u64 = 0x7ff << 52;
-    // From 2^-1021 on, so that the inverse is finite, too.
-    let x = if x > 0.0 { x.max(2.0 * f64::MIN_POSITIVE) } else { 1.0 };
-    1.0 / f64::from_bits(x.to_bits() & EXPONENT)
 }
 
 #[cfg(test)]

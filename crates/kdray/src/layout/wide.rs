@@ -9,7 +9,7 @@ use super::treelet::Treelet;
 use super::{Hint, TriangleBlock, WideNode};
 use crate::build::parallel::map_all;
 use crate::build::{BuildError, BuildOptions};
-use crate::geometry::{Aabb, Coordinate, TreeSpace};
+use crate::geometry::{Aabb, Coordinate, ROUNDING, TreeSpace};
 use crate::primitives::TriangleMesh;
 use crate::tree::{KdTree, NodeKind};
 use arrayvec::ArrayVec;
@@ -21,9 +21,6 @@ pub(crate) const STACK_SIZE: usize = 256;
 
 /// By how much boxes are made larger, and homes smaller, in units of u R ([`margin`]).
 pub(super) const FULL_MARGIN: f32 = 12.0;
-
-/// Half the distance from 1 to the next f32.
-const ROUNDING: f32 = f32::EPSILON / 2.0;
 
 /// A kd-tree with eight children a node and copies of the triangles, eight to a block, in one piece
 /// of memory: what single rays and batches are fastest on.

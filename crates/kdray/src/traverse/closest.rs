@@ -14,7 +14,7 @@ pub fn closest_hit<const K: usize>(
     trace: &mut impl Trace,
 ) -> Option<Hit> {
     let mut walk = LeafWalk::over(tree, primitives, ray, trace);
-    let mut nearest = Nearest::new(ray);
+    let mut nearest = ClosestSoFar::new(ray);
     while let Some(leaf) = walk.next_leaf(nearest.ray.interval.t_max, trace) {
         for &id in leaf.primitives {
             let t = nearest.test(primitives, id);
@@ -26,14 +26,14 @@ pub fn closest_hit<const K: usize>(
 
 /// A ray on its way to its first hit.
 #[derive(Clone, Debug)]
-pub(super) struct Nearest<const K: usize> {
+pub(super) struct ClosestSoFar<const K: usize> {
     /// The ray up to what was found.
     pub(super) ray: Ray<K>,
     /// What was found.
     pub(super) hit: Option<Hit>,
 }
 
-impl<const K: usize> Nearest<K> {
+impl<const K: usize> ClosestSoFar<K> {
     #[inline]
     pub(super) fn new(ray: &Ray<K>) -> Self {
         Self { ray: *ray, hit: None }

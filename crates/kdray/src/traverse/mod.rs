@@ -8,9 +8,9 @@
 mod all_hits;
 mod cell_walk;
 mod closest;
+mod closest_point;
 mod leaf_walk;
 mod naive;
-mod nearest;
 mod packet;
 mod trace;
 mod vicinity;
@@ -21,9 +21,9 @@ mod winding;
 pub use all_hits::AllHits;
 pub use cell_walk::CellWalk;
 pub use closest::{any_hit, closest_hit};
+pub use closest_point::closest_point;
 pub use leaf_walk::{LeafVisit, LeafWalk};
 pub use naive::Naive;
-pub use nearest::closest_point;
 pub use packet::{
     Cull, Frustum, LaneMask, PacketCounters, PacketDecision, PacketKind, PacketLeafStep,
     PacketRecorder, PacketSplitStep, PacketStep, PacketTrace, Packets,

@@ -1,6 +1,6 @@
 //! The rays of a packet, and what they have found.
 
-use super::super::closest::Nearest;
+use super::super::closest::ClosestSoFar;
 use crate::geometry::{Aabb, Interval, Ray};
 use crate::primitives::{Hit, Intersect};
 
@@ -20,7 +20,7 @@ pub(super) struct PacketRay {
     pub(super) index: usize,
     /// The t at which it may be in the tree's box.
     pub(super) inside: Interval,
-    nearest: Nearest<3>,
+    nearest: ClosestSoFar<3>,
     is_done: bool,
 }
 
@@ -30,7 +30,7 @@ impl PacketRay {
     pub(super) fn new(index: usize, ray: &Ray<3>, bounds: &Aabb<3>) -> Option<Self> {
         ray.check().ok()?;
         let inside = bounds.slab(ray)?;
-        Some(Self { index, inside, nearest: Nearest::new(ray), is_done: false })
+        Some(Self { index, inside, nearest: ClosestSoFar::new(ray), is_done: false })
     }
 
     /// The ray, up to the nearest hit so far.

@@ -1,6 +1,6 @@
 //! A ray's line, moved and scaled to where f32 is sharp.
 
-use crate::geometry::Ray;
+use crate::geometry::{Ray, power_of_two_below};
 
 /// Directions whose largest component is from the first to the second can be scaled without loss.
 const SIZES: std::ops::Range<f64> = 1e-290..1e290;
@@ -66,12 +66,6 @@ impl Line {
 #[inline(always)]
 pub(super) fn larger(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
-}
-
-/// The largest power of two that a normal number is not below.
-fn power_of_two_below(x: f64) -> f64 {
-    const EXPONENT: u64 = 0x7ff << 52;
-    f64::from_bits(x.to_bits() & EXPONENT)
 }
 
 /// Where the line of a ray enters the cube of `reach` around zero; `None` if it passes by. The mesh

@@ -1,7 +1,6 @@
 //! What rounding does, and how much is allowed for it.
 
-/// Half the distance from 1 to the next f32.
-pub(super) const ROUNDING: f32 = f32::EPSILON / 2.0;
+pub(super) use crate::geometry::ROUNDING;
 
 /// More than what rounding to f32 changes, relatively.
 pub(super) const F32_SLACK: f64 = 1.0 / (1 << 22) as f64;

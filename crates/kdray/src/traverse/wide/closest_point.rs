@@ -1,14 +1,12 @@
 //! The nearest point, by the wide tree.
 
+use super::rounding::ROUNDING;
 use super::search::triangle;
 use crate::geometry::Coordinate;
 use crate::layout::{Link, STACK_SIZE, TriangleBlock, WideNode, WideTree};
 use crate::primitives::{ClosestPoint, TriangleMesh, closest_on_triangle};
 use crate::traverse::vicinity::Vicinity;
 use arrayvec::ArrayVec;
-
-/// Half the distance from 1 to the next f32.
-const ROUNDING: f32 = f32::EPSILON / 2.0;
 
 /// A bound for the relative error of a squared distance in f32: a difference, a square and two sums,
 /// at most 5 roundings; and room to spare.
