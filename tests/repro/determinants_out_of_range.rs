@@ -9,8 +9,8 @@ use kdray::{
 fn square<T: Precision>(size: f64) -> Scene<T> {
     let corner = |x: f64, y: f64| [x, y, 0.0].map(|x| <T as Coordinate>::from_f64(size * x));
     let vertices = vec![corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
-    let mesh = TriangleMesh::new(vertices, vec![[0, 1, 2], [0, 2, 3]]).unwrap();
-    Scene::build(mesh, &BuildOptions::default()).unwrap()
+    let mesh = TriangleMesh::new(vertices, vec![[0, 1, 2], [0, 2, 3]]).expect("finite");
+    Scene::build(mesh, &BuildOptions::default()).expect("a small mesh")
 }
 
 fn scaled(x: f64, y: f64, z: f64) -> [[f64; 4]; 3] {

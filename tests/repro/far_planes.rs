@@ -11,8 +11,8 @@ fn sheets(x: f64, size: f64) -> Soup<f64> {
 }
 
 fn scene(soup: Soup<f64>) -> Scene<f64> {
-    let mesh = TriangleMesh::from_soup(soup).unwrap();
-    Scene::build(mesh, &BuildOptions::default()).unwrap()
+    let mesh = TriangleMesh::from_soup(soup).expect("finite");
+    Scene::build(mesh, &BuildOptions::default()).expect("a small mesh")
 }
 
 const FAR: [f64; 4] = [1e300, -1e300, f64::MAX, 3e250];
