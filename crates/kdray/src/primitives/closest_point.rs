@@ -40,8 +40,8 @@ pub(crate) const DISTANCE_ERROR: f64 = 64.0 * f64::EPSILON;
 /// The point of a triangle that is nearest to `point`, whose coordinates are finite.
 ///
 /// The triangle is a closed set; one without area is the segment, or the point, that its corners
-/// span. Of triangles that share a vertex or an edge, all for whose inside that is the nearest point report the same
-/// distance to it, to the last bit. It is the largest f64 at most.
+/// span. Triangles that share a vertex or an edge find the same distance to it, to the last bit, unless the foot of the
+/// perpendicular lies in them. It is the largest f64 at most.
 pub fn closest_on_triangle(point: [f64; 3], corners: [[f64; 3]; 3], id: u32) -> ClosestPoint {
     let ([p, a, b, c], scale) = in_range([point, corners[0], corners[1], corners[2]]);
     let nearest = in_face(p, [a, b, c]).unwrap_or_else(|| on_border(p, [a, b, c]));
