@@ -112,19 +112,25 @@ pub(super) fn triple_product(
     sum
 }
 
+/// The product, for which processors have an instruction.
+#[inline]
+pub(super) fn times(a: i64, b: i64) -> i128 {
+    i128::from(a) * i128::from(b)
+}
+
 /// The sign of the sum of products: of integers below 2^60 with others below 2^124. Of products in two parts, for
 /// they have 184 bits.
 #[inline]
 pub(super) fn sign_of_products(pairs: [(i64, i128); 3]) -> Ordering {
-    const LOW: i128 = (1 << BITS) - 1;
+    const LOW_BITS: i32 = 62;
+    const LOW: i128 = (1 << LOW_BITS) - 1;
     let (mut high, mut low) = (0, 0);
     for (a, b) in pairs {
-        let a = i128::from(a);
-        high += a * (b >> BITS);
-        low += a * (b & LOW);
+        high += times(a, (b >> LOW_BITS) as i64);
+        low += times(a, (b & LOW) as i64);
     }
-    // The sum is high · 2^60 + low, of which low gets the same sign or zero: from 0 to 2^60.
-    high += low >> BITS;
+    // The sum is high · 2^62 + low, of which low gets the same sign or zero: from 0 to 2^62.
+    high += low >> LOW_BITS;
     high.cmp(&0).then((low & LOW).cmp(&0))
 }
 
@@ -154,8 +160,8 @@ mod tests {
         assert_eq!(sign_of_products([(a, b), (-a, b), (-1, 1)]), Ordering::Less);
         assert_eq!(sign_of_products([(-a, b), (-a, b), (-a, b)]), Ordering::Less);
         assert_eq!(sign_of_products([(a, b), (a, b), (a, b)]), Ordering::Greater);
-        // 2^60 · 1 against 1 · 2^60, of which each is in another part.
-        assert_eq!(sign_of_products([(1, 1 << BITS), (1 << (BITS - 1), -2), (0, 0)]), equal);
+        // 2^62 · 1 against 2^59 · 8, of which each is in another part.
+        assert_eq!(sign_of_products([(1, 1 << 62), (1 << (BITS - 1), -8), (0, 0)]), equal);
     }
 
     #[test]

@@ -21,6 +21,7 @@
 
 mod accumulator;
 mod edge;
+mod edge_signs;
 mod hit_values;
 mod lattice;
 mod on_triangle;
@@ -30,9 +31,9 @@ mod segment;
 pub(crate) use accumulator::not_vanished;
 pub use accumulator::{Accumulator, Scaled};
 pub use edge::{
-    cross_component, directed_edges, edge_function, edge_sign, moved_edge_sign, moved_side_sign,
-    side_of_ray, volume,
+    cross_component, directed_edges, edge_function, moved_side_sign, side_of_ray, volume,
 };
+pub use edge_signs::EdgeSigns;
 pub use hit_values::{Values, hit_t, hit_values};
 pub use on_triangle::is_on_triangle;
 pub use plane_side::side_of_plane;

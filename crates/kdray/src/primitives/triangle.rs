@@ -1,9 +1,7 @@
 //! The ray–triangle test: a filter in f64, and exact arithmetic where the filter cannot tell.
 
 use super::{Hit, HitRule, Side};
-use crate::exact::{
-    Values, directed_edges, edge_sign, hit_t, hit_values, moved_edge_sign, not_vanished,
-};
+use crate::exact::{EdgeSigns, Values, hit_t, hit_values, not_vanished};
 use crate::geometry::{Coordinate, Interval, Ray, t_above, t_below};
 use glam::{DVec3, Vec3Swizzles};
 use std::cmp::Ordering;
@@ -151,14 +149,14 @@ fn is_hit_exactly<T: Coordinate>(
     if !are_finite(corners) {
         return false;
     }
-    let edges = directed_edges(corners.map(|p| p.map(T::to_f64)));
+    let edges = EdgeSigns::new(ray, corners.map(|p| p.map(T::to_f64)));
     let signs = [0, 1, 2].map(|i| {
         if values[i] > error {
             Ordering::Greater
         } else if values[i] < -error {
             Ordering::Less
         } else {
-            edge_sign(ray, edges[i].0, edges[i].1)
+            edges.sign(i)
         }
     });
     if !share_a_sign(signs) {
@@ -167,7 +165,7 @@ fn is_hit_exactly<T: Coordinate>(
     if rule == HitRule::Touching {
         return true;
     }
-    let moved = [0, 1, 2].map(|i| moved_edge_sign(ray, edges[i].0, edges[i].1, signs[i]));
+    let moved = [0, 1, 2].map(|i| edges.moved_sign(i, signs[i]));
     moved[0] != Ordering::Equal && moved == [moved[0]; 3]
 }
 
