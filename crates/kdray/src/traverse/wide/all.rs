@@ -2,6 +2,7 @@
 
 use super::aim::Aim;
 use super::block::BlockTest;
+use super::recent::Recent;
 use super::search::{Search, triangle};
 use crate::geometry::{Coordinate, Ray};
 use crate::layout::TriangleBlock;
@@ -9,15 +10,13 @@ use crate::primitives::{Hit, HitRule, TriangleMesh, intersect_triangle};
 use crate::simd::Lanes;
 use fearless_simd::prelude::*;
 
-/// Among so many hits a triangle is looked for before it is tested again.
-const LATEST: usize = 16;
-
 /// Every crossing, decided exactly. Nothing ends the search early, so leaves may come in any order.
 pub(crate) struct All<'a, T: 'static> {
     mesh: &'a TriangleMesh<T>,
     ray: Ray<3>,
     /// In the order in which they were found.
     hits: Vec<Hit>,
+    tested: Recent,
 }
 
 impl<'a, T: Coordinate> Search<'a> for All<'a, T> {
@@ -29,7 +28,7 @@ impl<'a, T: Coordinate> Search<'a> for All<'a, T> {
     fn new(ray: &Ray<3>, mesh: &'a TriangleMesh<T>, answer: &mut Vec<Hit>) -> Self {
         let mut hits = std::mem::take(answer);
         hits.clear();
-        Self { mesh, ray: *ray, hits }
+        Self { mesh, ray: *ray, hits, tested: Recent::NONE }
     }
 
     #[inline(always)]
@@ -51,19 +50,17 @@ impl<'a, T: Coordinate> Search<'a> for All<'a, T> {
 }
 
 impl<T: Coordinate> All<'_, T> {
-    /// Adds those of the candidates that are crossed, unless they were among the latest: a triangle may be in
-    /// several leaves.
+    /// Adds those of the candidates that are crossed.
     #[inline(never)]
     fn add(&mut self, block: &TriangleBlock, mut candidates: u64) {
         while candidates != 0 {
             let lane = candidates.trailing_zeros() as usize;
             candidates &= candidates - 1;
             let id = block.id(lane);
-            if self.hits.iter().rev().take(LATEST).any(|hit| hit.primitive_id == id) {
-                continue;
+            if self.tested.add(id) {
+                let corners = triangle(self.mesh, block, lane);
+                self.hits.extend(intersect_triangle(&corners, id, &self.ray, HitRule::Crossing));
             }
-            let corners = triangle(self.mesh, block, lane);
-            self.hits.extend(intersect_triangle(&corners, id, &self.ray, HitRule::Crossing));
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::aim::Aim;
 use super::block::BlockTest;
+use super::recent::Recent;
 use super::search::{Search, triangle};
 use crate::geometry::{Coordinate, Ray};
 use crate::layout::TriangleBlock;
@@ -15,6 +16,7 @@ pub(crate) struct Count<'a, T: 'static> {
     ray: Ray<3>,
     /// In the order in which they were found; a triangle may be in several leaves.
     ids: Vec<u32>,
+    tested: Recent,
 }
 
 impl<'a, T: Coordinate> Search<'a> for Count<'a, T> {
@@ -27,7 +29,7 @@ impl<'a, T: Coordinate> Search<'a> for Count<'a, T> {
     fn new(ray: &Ray<3>, mesh: &'a TriangleMesh<T>, answer: &mut Vec<u32>) -> Self {
         let mut ids = std::mem::take(answer);
         ids.clear();
-        Self { mesh, ray: *ray, ids }
+        Self { mesh, ray: *ray, ids, tested: Recent::NONE }
     }
 
     #[inline(always)]
@@ -54,8 +56,9 @@ impl<T: Coordinate> Count<'_, T> {
         while candidates != 0 {
             let lane = candidates.trailing_zeros() as usize;
             candidates &= candidates - 1;
-            if sure >> lane & 1 == 1 || self.is_crossed(block, lane) {
-                self.ids.push(block.id(lane));
+            let id = block.id(lane);
+            if self.tested.add(id) && (sure >> lane & 1 == 1 || self.is_crossed(block, lane)) {
+                self.ids.push(id);
             }
         }
     }

@@ -21,6 +21,7 @@ mod located;
 #[cfg(test)]
 mod one_block;
 pub(crate) mod packet;
+mod recent;
 mod rounding;
 mod search;
 mod single;
