@@ -38,6 +38,7 @@ pub struct Scaled {
 }
 
 impl Default for Accumulator {
+    #[inline]
     fn default() -> Self {
         Self::of_units(LOWEST)
     }
@@ -89,6 +90,7 @@ impl ShortAccumulator {
 
 impl<const LIMBS: usize> Accumulator<LIMBS> {
     /// Zero, in units of that power of two.
+    #[inline]
     pub(super) fn of_units(lowest: i32) -> Self {
         Self { added: [0; LIMBS], subtracted: [0; LIMBS], used: 0..0, lowest }
     }

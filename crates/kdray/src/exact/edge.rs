@@ -12,6 +12,7 @@ pub fn directed_edges<P: Copy>([a, b, c]: [P; 3]) -> [(P, P); 3] {
 }
 
 /// d · (q' x p') with p' = p − o: on which side of the edge (p, q) the line of the ray passes.
+#[inline]
 pub fn edge_function(ray: &Ray<3>, p: [f64; 3], q: [f64; 3]) -> Accumulator {
     // q' x p' = q x p + p x o + o x q
     let (o, d) = (ray.origin, ray.direction);

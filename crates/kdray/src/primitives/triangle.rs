@@ -150,23 +150,27 @@ fn is_hit_exactly<T: Coordinate>(
         return false;
     }
     let edges = EdgeSigns::new(ray, corners.map(|p| p.map(T::to_f64)));
-    let signs = [0, 1, 2].map(|i| {
-        if values[i] > error {
-            Ordering::Greater
-        } else if values[i] < -error {
-            Ordering::Less
-        } else {
-            edges.sign(i)
-        }
-    });
-    if !share_a_sign(signs) {
-        return false;
-    }
+    let Some(signs) = agreeing_signs(values, error, &edges) else { return false };
     if rule == HitRule::Touching {
         return true;
     }
     let moved = [0, 1, 2].map(|i| edges.moved_sign(i, signs[i]));
     moved[0] != Ordering::Equal && moved == [moved[0]; 3]
+}
+
+/// The signs of W, U and V, unless two of them are opposite or all are zero. Those that are not sure are found one by one,
+/// as long as they matter.
+fn agreeing_signs(values: [f64; 3], error: f64, edges: &EdgeSigns<'_>) -> Option<[Ordering; 3]> {
+    let is_sure = |i: usize| values[i].abs() > error;
+    let sure = |i: usize| if is_sure(i) { values[i].total_cmp(&0.0) } else { Ordering::Equal };
+    let mut signs = [0, 1, 2].map(sure);
+    for i in [0, 1, 2].into_iter().filter(|&i| !is_sure(i)) {
+        signs[i] = edges.sign(i);
+        if signs.contains(&Ordering::Less) && signs.contains(&Ordering::Greater) {
+            return None;
+        }
+    }
+    (signs != [Ordering::Equal; 3]).then_some(signs)
 }
 
 /// t from a den that is good, where T has lost too many digits: near the origin of the ray.
@@ -190,13 +194,6 @@ fn values_exactly<T: Coordinate>(corners: &[[T; 3]; 3], ray: &Ray<3>) -> Values 
 /// be; none of them is hit.
 fn are_finite<T: Coordinate>(corners: &[[T; 3]; 3]) -> bool {
     corners.as_flattened().iter().all(|x| x.to_f64().is_finite())
-}
-
-/// Whether the numbers that are not zero share a sign, and there are any.
-fn share_a_sign(signs: [Ordering; 3]) -> bool {
-    let mut others = signs.into_iter().filter(|&sign| sign != Ordering::Equal);
-    let first = others.next();
-    first.is_some() && others.all(|sign| Some(sign) == first)
 }
 
 #[cfg(test)]
