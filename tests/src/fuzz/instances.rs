@@ -2,7 +2,12 @@
 
 use super::build_and_query::built;
 use super::draw::Draw;
-use kdray::{Instance, InstanceHit, InstancedScene, Precision, Ray};
+use glam::{DAffine3, DVec3};
+use kdray::{Instance, InstanceHit, InstancedScene, Precision, Ray, Scene};
+
+/// How far away rays may begin to be carried well, in largest coordinates over how unevenly a matrix stretches: less
+/// than the 2^30 that are documented.
+const REACH: f64 = (1 << 28) as f64;
 
 /// Runs an input.
 pub fn run(data: &[u8]) {
@@ -19,13 +24,14 @@ fn ask<T: Precision>(draw: &mut Draw<'_>) {
     let instances: Vec<_> = (0..draw.below(12)).map(|_| instance(draw)).collect();
     // A matrix may be refused, and a geometry may not be there.
     let Ok(scene) = InstancedScene::build(geometries, instances) else { return };
-    let scene = if draw.bit() { scene.with_mask(draw.byte().into()) } else { scene };
+    let mask = if draw.bit() { draw.byte().into() } else { u32::MAX };
+    let scene = scene.with_mask(mask);
     for _ in 0..16 {
         let ray = match scene.geometries().first() {
             Some(geometry) => draw.ray(geometry.mesh()),
             None => Ray::new(draw.point(), draw.point()),
         };
-        check(&scene, &ray);
+        check(&scene, mask, &ray);
         if !draw.has_more() {
             break;
         }
@@ -52,7 +58,7 @@ fn instance(draw: &mut Draw<'_>) -> Instance {
     }
 }
 
-fn check<T: Precision>(scene: &InstancedScene<T>, ray: &Ray) {
+fn check<T: Precision>(scene: &InstancedScene<T>, mask: u32, ray: &Ray) {
     let closest = scene.closest_hit(ray);
     assert_eq!(scene.any_hit(ray), closest.is_some(), "{ray:?}");
     let touched: Vec<_> = scene.all_touched(ray).collect();
@@ -63,6 +69,77 @@ fn check<T: Precision>(scene: &InstancedScene<T>, ray: &Ray) {
         hits.iter().for_each(|found| check_hit(scene, ray, found));
     }
     assert_eq!(closest, touched.first().copied(), "{ray:?}");
+    for (id, instance) in (0..).zip(scene.instances()) {
+        check_instance(scene, id, instance.mask & mask != 0, ray, [&touched, &crossed]);
+    }
+}
+
+/// On an instance there are the hits of its geometry, whatever box it has in the tree: all queries go by that, so that
+/// what it loses they lose alike.
+fn check_instance<T: Precision>(
+    scene: &InstancedScene<T>,
+    id: u32,
+    is_seen: bool,
+    ray: &Ray,
+    found: [&[InstanceHit]; 2],
+) {
+    let instance = &scene.instances()[id as usize];
+    let geometry = &scene.geometries()[instance.geometry_id as usize];
+    let (carried, is_near) = carried(scene, geometry, instance, ray);
+    if is_seen && !is_near {
+        return;
+    }
+    let all = [geometry.all_touched(&carried).collect(), geometry.all_hits(&carried).collect()];
+    for (all, found) in all.into_iter().zip(found) {
+        let expected: Vec<_> = if is_seen { all } else { Vec::new() };
+        let found = found.iter().filter(|it| it.instance_id == id).map(|it| it.hit);
+        assert!(found.eq(expected.iter().copied()), "{expected:?} of {instance:?} and {ray:?}");
+    }
+}
+
+/// The ray in the space of an instance, as the scene carries it, and whether that rounds it so little that the tree
+/// must not matter.
+fn carried<T: Precision>(
+    scene: &InstancedScene<T>,
+    geometry: &Scene<T>,
+    instance: &Instance,
+    ray: &Ray,
+) -> (Ray, bool) {
+    let column = |k: usize| DVec3::from(instance.to_world.map(|row| row[k]));
+    let to_world = DAffine3::from_cols(column(0), column(1), column(2), column(3));
+    let to_object = to_world.inverse();
+    let norm = |it: &DAffine3| {
+        let [x, y, z] = [it.matrix3.x_axis, it.matrix3.y_axis, it.matrix3.z_axis];
+        (x.length_squared() + y.length_squared() + z.length_squared()).sqrt()
+    };
+    let carried = Ray {
+        origin: to_object.transform_point3(ray.origin.into()).into(),
+        direction: to_object.transform_vector3(ray.direction.into()).into(),
+        interval: ray.interval,
+    };
+    let reach = REACH * largest(scene, geometry, &to_world) / (norm(&to_world) * norm(&to_object));
+    let begins = DVec3::from(scene.tree_space().point(ray.origin));
+    let is_plain = |way: [f64; 3]| (1e-250..1e250).contains(&DVec3::from(way).abs().max_element());
+    let is_near = begins.abs().max_element() <= reach;
+    (carried, is_near && is_plain(ray.direction) && is_plain(carried.direction))
+}
+
+/// The largest coordinate that counts: of an instance of a mesh in f32, and of all of the scene in f64.
+fn largest<T: Precision>(
+    scene: &InstancedScene<T>,
+    geometry: &Scene<T>,
+    to_world: &DAffine3,
+) -> f64 {
+    if !T::FITS_TREE {
+        let bounds = scene.tree().bounds();
+        let all = bounds.min.into_iter().chain(bounds.max);
+        return all.fold(0.0, |most, x| most.max(f64::from(x).abs()));
+    }
+    let mesh = geometry.mesh();
+    let corners = (0..mesh.triangles().len() as u32).flat_map(|id| mesh.corners(id));
+    let placed =
+        corners.map(|p| to_world.transform_point3(p.map(T::to_f64).into()).abs().max_element());
+    placed.fold(0.0, f64::max)
 }
 
 fn check_hit<T: Precision>(scene: &InstancedScene<T>, ray: &Ray, found: &InstanceHit) {
