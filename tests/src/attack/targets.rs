@@ -12,6 +12,12 @@ const MOST: usize = 520_000;
 /// How many volleys small targets have in the first round: the next target begins where this one ends.
 pub(super) const VOLLEYS: u64 = 4;
 
+/// Scenes whose closed part is shot at in f64 as well.
+const IN_F64: [&str; 4] = ["lego_car", "awkward_stadium", "staircase", "quake_inyard"];
+
+/// A place in UTM coordinates, which f32 cannot tell to a millimetre.
+const UTM: [f64; 3] = [691_607.123, 5_334_760.456, 520.789];
+
 /// The targets that are made by code, of both precisions.
 pub fn made() -> Vec<AnyTarget> {
     let singles = closed().into_iter().chain(scaled()).chain(awkward());
@@ -74,7 +80,6 @@ fn in_f64() -> Vec<Target<f64>> {
     let of = |name: &str, soup: Soup<f64>| Target::new(name, meshes::mesh(soup));
     let (sphere, torus) = (|| soup_of(&meshes::sphere(8)), || soup_of(&meshes::torus(16, 10)));
     let (small, few) = (|| soup_of(&meshes::sphere(4)), || meshes::soup(12, [0.0; 3], 1.0, 9));
-    let utm = [691_607.123, 5_334_760.456, 520.789];
     let placed = |soup: &Soup, scale: f64| meshes::placed(soup, scale, [0.0; 3]);
     let bent = |[x, y, z]: [f64; 3]| [0.1 * x + 0.3, y / 3.0, 0.7 * z - 0.2 * x];
     let by = |soup: Soup, by: &dyn Fn([f64; 3]) -> [f64; 3]| -> Soup<f64> {
@@ -82,8 +87,8 @@ fn in_f64() -> Vec<Target<f64>> {
     };
     vec![
         of("f64: torus, bent", by(torus(), &bent)),
-        of("f64: torus, a metre in UTM", meshes::placed(&torus(), 1.0, utm)),
-        of("f64: cubes, a millimetre in UTM", meshes::placed(&meshes::boxes(3), 1e-3, utm)),
+        of("f64: torus, a metre in UTM", meshes::placed(&torus(), 1.0, UTM)),
+        of("f64: cubes, a millimetre in UTM", meshes::placed(&meshes::boxes(3), 1e-3, UTM)),
         of("f64: cubes as of f32", meshes::in_f64(&meshes::boxes(3))),
         of("f64: sphere, size 1e-300", placed(&sphere(), 1e-300)),
         of("f64: sphere, size 1e-100", placed(&sphere(), 1e-100)),
@@ -103,7 +108,7 @@ fn in_f64() -> Vec<Target<f64>> {
         of("f64: soup", by(meshes::soup(300, [0.0; 3], 1.0, 5), &bent)),
         of(
             "f64: soup, a metre in UTM",
-            meshes::placed(&meshes::soup(200, [0.0; 3], 1.0, 7), 1.0, utm),
+            meshes::placed(&meshes::soup(200, [0.0; 3], 1.0, 7), 1.0, UTM),
         ),
         of("f64: degenerate and double triangles", by(meshes::degenerate(12), &|p| p)),
         of("f64: needles", by(meshes::needles(200, 10), &bent)),
@@ -136,8 +141,8 @@ fn overlapping(count: usize) -> Soup {
     (0..count).map(triangle).collect()
 }
 
-/// The scenes beside the checkout, if they are there: the closed part of those that have one, and all
-/// awkward ones as they are. Only those of at most so many triangles.
+/// The scenes beside the checkout, if they are there: the closed part of those that have one, of some of them in f64
+/// too, and all awkward ones as they are. Only those of at most so many triangles.
 pub fn of_scenes(most: usize) -> Vec<AnyTarget> {
     let listed = scenes().into_iter().flatten().filter(|info| info.triangles <= most.min(MOST));
     let loaded = listed.filter_map(|info| match load_mesh(&info) {
@@ -147,15 +152,26 @@ pub fn of_scenes(most: usize) -> Vec<AnyTarget> {
             None
         }
     });
-    let targets = loaded.flat_map(|(mesh, name)| {
-        let closed = closed_part(&mesh);
-        let whole = name.starts_with("awkward").then(|| Target::new(&name, mesh));
-        let is_worth_it = closed.triangles().len() >= 100;
-        let closed = is_worth_it.then(|| Target::new(format!("{name}, closed part"), closed));
-        [closed, whole].into_iter().flatten()
-    });
-    let targets = targets.filter(|target| !target.mesh.triangles().is_empty());
-    in_turns(targets.map(AnyTarget::from))
+    let targets = loaded.flat_map(|(mesh, name)| of_scene(mesh, &name));
+    in_turns(targets.filter(|target| target.triangles() > 0))
+}
+
+/// What is shot at of one scene.
+fn of_scene(mesh: TriangleMesh, name: &str) -> Vec<AnyTarget> {
+    let closed = closed_part(&mesh);
+    let mut targets = Vec::new();
+    if closed.triangles().len() >= 100 {
+        if IN_F64.contains(&name) {
+            let there = meshes::moved(&closed, |p| [0, 1, 2].map(|k| p[k] / 3.0 + UTM[k]));
+            let name = format!("f64: {name}, closed part in UTM");
+            targets.push(Target::<f64>::new(name, there).into());
+        }
+        targets.push(Target::new(format!("{name}, closed part"), closed).into());
+    }
+    if name.starts_with("awkward") {
+        targets.push(Target::new(name, mesh).into());
+    }
+    targets
 }
 
 fn soup_of(mesh: &TriangleMesh) -> Soup {
