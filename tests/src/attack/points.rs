@@ -238,7 +238,7 @@ pub fn judge<T: Coordinate>(
     let along_normal = if side == Side::Front { -1.0 } else { 1.0 };
     if let Some(thickness) = truth.thickness(id, weights, along_normal) {
         let is_right = match (thickness, said.thickness) {
-            (Some(a), Some(b)) => (a - b).abs() <= 1e-6 * a + target.extent.doubt(),
+            (Some(a), Some(b)) => (a - b).abs() <= 1e-9 * a + target.extent.doubt(),
             (a, b) => a.is_none() && b.is_none(),
         };
         check(is_right, &|| format!("thickness: {thickness:?}"));
