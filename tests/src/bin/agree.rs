@@ -6,7 +6,7 @@
 
 use kdray::{BuildOptions, Ray, Scene, Strategy, TriangleMesh};
 use kdray_tests::agree;
-use kdray_tests::command_line::Arguments;
+use kdray_tests::command_line::{Arguments, refuse};
 use kdray_tests::rays::Archer;
 use kdray_tests::shared::{SceneInfo, load_mesh, scenes};
 use std::io::{self, Write};
@@ -29,6 +29,16 @@ fn main() -> io::Result<ExitCode> {
     let arguments = Arguments::of_this_program();
     let rays = arguments.value("--rays").and_then(|n| n.parse().ok());
     let Some(scenes) = scenes() else { return Ok(ExitCode::FAILURE) };
+    let names = scenes.iter().map(|scene| scene.name.as_str());
+    if let Err(unknown) = arguments.check_names("--scenes", names, |asked, name| asked == name) {
+        return refuse(&unknown);
+    }
+    let strategies = Strategy::ALL.map(Strategy::name);
+    if let Err(unknown) =
+        arguments.check_names("--strategies", strategies, |asked, name| asked == name)
+    {
+        return refuse(&unknown);
+    }
     let mut out = io::stdout();
     writeln!(
         out,

@@ -8,7 +8,7 @@
 use indicatif::{HumanCount, ProgressBar, ProgressStyle};
 use kdray_tests::attack::campaign::Outcome;
 use kdray_tests::attack::{AnyTarget, Campaign, Limits, report, targets};
-use kdray_tests::command_line::Arguments;
+use kdray_tests::command_line::{Arguments, refuse};
 use std::io::{self, Write};
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -33,7 +33,10 @@ fn main() -> io::Result<ExitCode> {
     let endless = minutes.map_or(usual, |_| u64::MAX);
     let rays = number(&arguments, "--rays").unwrap_or(endless);
     let mut out = io::stdout();
-    let targets = chosen(&arguments, if is_quick { 0 } else { usize::MAX });
+    let targets = match chosen(&arguments, if is_quick { 0 } else { usize::MAX }) {
+        Ok(targets) => targets,
+        Err(unknown) => return refuse(&unknown),
+    };
     let triangles: usize = targets.iter().map(AnyTarget::triangles).sum();
     writeln!(
         out,
@@ -78,13 +81,15 @@ fn number<T: std::str::FromStr>(arguments: &Arguments, option: &str) -> Option<T
 }
 
 /// The targets whose names contain one of those given; scenes of at most so many triangles.
-fn chosen(arguments: &Arguments, most: usize) -> Vec<AnyTarget> {
+fn chosen(arguments: &Arguments, most: usize) -> Result<Vec<AnyTarget>, String> {
     let scenes = if most > 0 { targets::of_scenes(most) } else { Vec::new() };
     let mut targets = [targets::made(), scenes].concat();
+    let is_meant = |asked: &str, name: &str| name.contains(asked);
+    arguments.check_names("--targets", targets.iter().map(AnyTarget::name), is_meant)?;
     if let Some(names) = arguments.value("--targets") {
         targets.retain(|target| names.split(',').any(|name| target.name().contains(name)));
     }
-    targets
+    Ok(targets)
 }
 
 /// On a terminal how many rays of how many there were; elsewhere nothing.

@@ -5,7 +5,7 @@
 
 use kdray::{BuildOptions, Scene};
 use kdray_tests::closed::closed_part;
-use kdray_tests::command_line::Arguments;
+use kdray_tests::command_line::{Arguments, refuse};
 use kdray_tests::parity::from_outside;
 use kdray_tests::shared::{load_mesh, scenes};
 use std::io::{self, Write};
@@ -19,6 +19,10 @@ fn main() -> io::Result<ExitCode> {
     let arguments = Arguments::of_this_program();
     let step = if arguments.has("--full") { 1 } else { STEP };
     let Some(scenes) = scenes() else { return Ok(ExitCode::FAILURE) };
+    let names = scenes.iter().map(|scene| scene.name.as_str());
+    if let Err(unknown) = arguments.check_names("--scenes", names, |asked, name| asked == name) {
+        return refuse(&unknown);
+    }
     let mut out = io::stdout();
     writeln!(
         out,

@@ -4,7 +4,7 @@
 #![forbid(unsafe_code)]
 
 use kdray::Strategy;
-use kdray_tests::command_line::Arguments;
+use kdray_tests::command_line::{Arguments, refuse};
 use kdray_tests::shared::{SceneInfo, scenes};
 use std::error::Error;
 use std::io::{self, Write};
@@ -18,6 +18,10 @@ const SCENES: [&str; 5] = ["sponza", "conference", "dragon", "black_forest", "ca
 fn main() -> Result<ExitCode, Box<dyn Error>> {
     let arguments = Arguments::of_this_program();
     let Some(scenes) = scenes() else { return Ok(ExitCode::FAILURE) };
+    let names = scenes.iter().map(|scene| scene.name.as_str());
+    if let Err(unknown) = arguments.check_names("--scenes", names, |asked, name| asked == name) {
+        return Ok(refuse(&unknown)?);
+    }
     let asked = arguments.value("--scenes").is_some();
     let chosen = |scene: &&SceneInfo| match asked {
         true => arguments.chosen("--scenes", &scene.name),
