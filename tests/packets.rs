@@ -9,6 +9,7 @@ use kdray::primitives::HitArrays;
 use kdray::{BuildOptions, Preset, Ray, Scene};
 use kdray_tests::OwnedPacket;
 use kdray_tests::agree::view;
+use kdray_tests::bits::Bits;
 use kdray_tests::shared::{CameraInfo, SceneInfo, load_mesh, scenes};
 
 /// Small scenes that are hard in different ways.
@@ -60,7 +61,8 @@ fn count_same(scene: &Scene, name: &str, packet: &OwnedPacket) -> usize {
     for (index, found) in found.iter().enumerate() {
         let ray = packet.ray(index);
         let alone = scene.closest_hit(&ray);
-        assert_eq!(hits.get(index), alone, "{name}, ray {index}: {ray:?}");
+        let hit = hits.get(index);
+        assert!(hit.is_same(&alone), "{name}, ray {index}: {ray:?}: {hit:?}, alone {alone:?}");
         assert_eq!(*found, alone.is_some(), "{name}, any hit of ray {index}: {ray:?}");
     }
     found.into_iter().filter(|&is_hit| is_hit).count()

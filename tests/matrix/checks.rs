@@ -9,6 +9,7 @@ use kdray::{
     Side, TriangleMesh,
 };
 use kdray_tests::Subject;
+use kdray_tests::bits::Bits;
 use kdray_tests::oracle::{agrees_on_all, agrees_on_closest};
 use kdray_tests::rays::{Archer, random};
 use rand::{Rng, RngExt};
@@ -289,6 +290,10 @@ fn in_sphere<S: Subject<K>, const K: usize>(
     Naive::new(scene.primitives(), BoundingSphere::of_aabb(scene.tree().bounds()))
 }
 
-pub(crate) fn same<T: PartialEq + std::fmt::Debug>(found: &T, naive: &T) -> Result<(), String> {
-    if found == naive { Ok(()) } else { Err(format!("found {found:?}, without a tree {naive:?}")) }
+/// Whether two answers are the same to the last bit.
+pub(crate) fn same<T: Bits + std::fmt::Debug>(found: &T, naive: &T) -> Result<(), String> {
+    match found.is_same(naive) {
+        true => Ok(()),
+        false => Err(format!("found {found:?}, without a tree {naive:?}")),
+    }
 }

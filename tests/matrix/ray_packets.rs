@@ -6,8 +6,9 @@ use crate::checks::scene_with;
 use kdray::geometry::Common;
 use kdray::primitives::HitArrays;
 use kdray::{
-    Arithmetic, BuildOptions, Hit, Interval, Precision, Ray, Scene, ShapeScene, Side, TriangleMesh,
+    Arithmetic, BuildOptions, Hit, Interval, Precision, Ray, Scene, ShapeScene, TriangleMesh,
 };
+use kdray_tests::bits::Bits;
 use kdray_tests::rays::random;
 use kdray_tests::{OwnedPacket, Packer};
 use rand::RngExt;
@@ -165,8 +166,8 @@ pub(crate) fn closest_hit<T: Precision>(
     assert_eq!(hits.len(), packet.len());
     for (index, naive) in asked.naive.iter().enumerate() {
         let (ray, found) = (packet.ray(index), hits.get(index));
-        same(asked, index, &bits(found), &bits(*naive))?;
-        same(asked, index, &bits(scene.closest_hit(&ray)), &bits(*naive))?;
+        same(asked, index, &found, naive)?;
+        same(asked, index, &scene.closest_hit(&ray), naive)?;
     }
     Ok(())
 }
@@ -203,7 +204,7 @@ pub(crate) fn float<T: Precision>(
         let Some(hit) = hits.get(index) else { continue };
         let is_one = (hit.primitive_id as usize) < scene.mesh().triangles().len();
         let is_sane = is_one && !hit.t.is_nan() && packet.ray(index).check().is_ok();
-        same(asked, index, &(is_sane, hit), &(true, hit))?;
+        same(asked, index, &is_sane, &true).map_err(|error| format!("{error}: {hit:?}"))?;
     }
     Ok(())
 }
@@ -238,20 +239,13 @@ pub(crate) fn nearly_all_in_float<T: Precision>(
     }
 }
 
-/// All numbers of a hit to the last bit, signs of zeros included.
-fn bits(hit: Option<Hit>) -> Option<(u64, u32, [u64; 2], Side)> {
-    let bits =
-        |hit: Hit| (hit.t.to_bits(), hit.primitive_id, [hit.u, hit.v].map(f64::to_bits), hit.side);
-    hit.map(bits)
-}
-
-fn same<T: PartialEq + std::fmt::Debug>(
+fn same<T: Bits + std::fmt::Debug>(
     asked: &Asked,
     index: usize,
     found: &T,
     naive: &T,
 ) -> Result<(), String> {
-    if found == naive {
+    if found.is_same(naive) {
         return Ok(());
     }
     let packet = asked.packet.packet();

@@ -5,6 +5,7 @@
 
 pub mod agree;
 pub mod attack;
+pub mod bits;
 pub mod bundles;
 pub mod closed;
 pub mod command_line;

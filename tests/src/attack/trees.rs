@@ -1,7 +1,7 @@
 //! Whether trees and hits are the same to the last byte, however many threads there are and however often.
 
-use super::verdict::bits;
 use super::{saved, settings};
+use crate::bits::bits;
 use kdray::{BuildOptions, Hit, InstructionSet, Precision, Ray, Scene, TriangleMesh};
 use rayon::ThreadPoolBuilder;
 use std::hash::{DefaultHasher, Hash, Hasher};

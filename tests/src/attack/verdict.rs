@@ -3,6 +3,7 @@
 use super::answers::{Answers, Said, Walked};
 use super::truth::{Place, TrueHit};
 use super::{Extent, Tally, Target, Truth, Volley};
+use crate::bits::Bits;
 use crate::flat::Flat;
 use crate::oracle::{agrees_on_all, agrees_on_closest, exact_triangle_hit};
 use kdray::primitives::HitRule;
@@ -208,10 +209,10 @@ pub(super) fn compare(
 ) {
     for (index, (ray, walked)) in volley.rays.iter().zip(walked).enumerate() {
         let same = match said {
-            Said::Closest(hits) => same(hits[index].as_slice(), walked.closest.as_slice()),
+            Said::Closest(hits) => hits[index].is_same(&walked.closest),
             Said::Any(found) => found[index] == walked.closest.is_some(),
-            Said::All(HitRule::Touching, hits) => same(&hits[index], &walked.touched),
-            Said::All(HitRule::Crossing, hits) => same(&hits[index], &walked.crossed),
+            Said::All(HitRule::Touching, hits) => hits[index].is_same(&walked.touched),
+            Said::All(HitRule::Crossing, hits) => hits[index].is_same(&walked.crossed),
             Said::Count(counts) => counts[index] == walked.count,
         };
         if !same {
@@ -232,14 +233,4 @@ pub(super) fn compare(
             });
         }
     }
-}
-
-/// Whether all bits of all hits are the same, signs of zeros included.
-fn same(a: &[Hit], b: &[Hit]) -> bool {
-    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| bits(a) == bits(b))
-}
-
-/// A hit as numbers that are equal only if all bits are.
-pub(super) fn bits(hit: &Hit) -> (u64, u32, [u64; 2], kdray::Side) {
-    (hit.t.to_bits(), hit.primitive_id, [hit.u.to_bits(), hit.v.to_bits()], hit.side)
 }
