@@ -1,7 +1,7 @@
 //! Vertices in f64: what is an f32 as well gives the same hits, and what is none keeps its digits.
 
 use kdray::primitives::HitArrays;
-use kdray::{Arithmetic, BuildOptions, Hit, Precision, Ray, RayPacket, Scene, TriangleMesh};
+use kdray::{Arithmetic, BuildOptions, Hit, Precision, Ray, RayPacket, Scene, Side, TriangleMesh};
 use kdray_tests::meshes::{
     boxes, degenerate, grid, in_f64, mesh, mesh_in_f64, needles, placed, soup, sphere,
 };
@@ -14,24 +14,36 @@ fn scene<T: Precision>(mesh: TriangleMesh<T>) -> Scene<T> {
 /// All answers to rays, numbers as bits.
 #[derive(Debug, PartialEq)]
 struct Answers {
-    closest: Vec<Option<[u64; 4]>>,
-    in_batch: Vec<Option<[u64; 4]>>,
+    closest: Vec<Option<HitBits>>,
+    in_batch: Vec<Option<HitBits>>,
     any: Vec<bool>,
     near: Vec<bool>,
-    crossed: Vec<Vec<[u64; 4]>>,
-    touched: Vec<Vec<[u64; 4]>>,
+    crossed: Vec<Vec<HitBits>>,
+    touched: Vec<Vec<HitBits>>,
+    at_once: Vec<Vec<HitBits>>,
+    counts: Vec<[usize; 2]>,
     /// All hits but the first, and the first on a triangle of even id.
-    rest: Vec<Vec<[u64; 4]>>,
-    even: Vec<Option<[u64; 4]>>,
+    rest: Vec<Vec<HitBits>>,
+    even: Vec<Option<HitBits>>,
 }
 
-fn bits(hit: Hit) -> [u64; 4] {
-    [hit.t.to_bits(), hit.u.to_bits(), hit.v.to_bits(), u64::from(hit.primitive_id)]
+/// A hit with its side.
+type HitBits = (u64, u32, [u64; 2], Side);
+
+fn bits(hit: Hit) -> HitBits {
+    kdray_tests::bits::bits(&hit)
 }
 
 fn answers<T: Precision>(scene: &Scene<T>, rays: &[Ray]) -> Answers {
     let mut batch = vec![None; rays.len()];
     scene.closest_hits(rays, &mut batch);
+    let mut counts = vec![usize::MAX; rays.len()];
+    scene.counts(rays, &mut counts);
+    let at_once = |ray: &Ray| {
+        let mut hits = Vec::new();
+        scene.all_hits_into(ray, &mut hits);
+        hits.into_iter().map(bits).collect()
+    };
     let hint = |ray: &Ray| scene.closest_hit_with_hint(ray).map(|(_, hint)| hint);
     Answers {
         closest: rays.iter().map(|ray| scene.closest_hit(ray).map(bits)).collect(),
@@ -43,6 +55,8 @@ fn answers<T: Precision>(scene: &Scene<T>, rays: &[Ray]) -> Answers {
             .collect(),
         crossed: rays.iter().map(|ray| scene.all_hits(ray).map(bits).collect()).collect(),
         touched: rays.iter().map(|ray| scene.all_touched(ray).map(bits).collect()).collect(),
+        at_once: rays.iter().map(at_once).collect(),
+        counts: rays.iter().zip(counts).map(|(ray, count)| [scene.count(ray), count]).collect(),
         rest: rays
             .iter()
             .filter_map(|ray| Some((ray, scene.all_hits(ray).next()?)))

@@ -1,11 +1,13 @@
 //! Batches that are streamed: of unknown length, within each other, and with rays out of range.
 
-use kdray::{BuildOptions, Hit, Ray, Scene};
+use kdray::{BuildOptions, Coordinate, Hit, Precision, Ray, Scene};
 use kdray_tests::{meshes, rays::Archer};
 
 /// A scene, and rays of all kinds, some of which no kernel takes or nothing hits.
-fn scene_and_rays() -> (Scene, Vec<Ray>) {
-    let mesh = meshes::mesh(meshes::soup(300, [0.0; 3], 1.0, 1));
+fn scene_and_rays<T: Precision>() -> (Scene<T>, Vec<Ray>) {
+    let soup = meshes::mesh(meshes::soup(300, [0.0; 3], 1.0, 1));
+    // No f32, if there is room for more.
+    let mesh = meshes::moved(&soup, |p| p.map(|x| <T as Coordinate>::from_f64(x / 3.0)));
     let mut rays = Archer::new(&mesh, 2).all_kinds(20, 10.0);
     for (i, far) in [1e30, 1e300, f64::NAN, f64::INFINITY].into_iter().enumerate() {
         let out_of_range = [
@@ -23,7 +25,11 @@ fn scene_and_rays() -> (Scene, Vec<Ray>) {
 }
 
 /// The hits of a stream by the numbers of its rays; each came once.
-fn closest(scene: &Scene, rays: impl Iterator<Item = Ray>, count: usize) -> Vec<Option<Hit>> {
+fn closest<T: Precision>(
+    scene: &Scene<T>,
+    rays: impl Iterator<Item = Ray>,
+    count: usize,
+) -> Vec<Option<Hit>> {
     let mut hits = vec![None; count];
     scene.each_closest_hit(rays, |index, hit| {
         assert!(hits[index].replace(hit).is_none(), "{index} comes twice");
@@ -31,13 +37,18 @@ fn closest(scene: &Scene, rays: impl Iterator<Item = Ray>, count: usize) -> Vec<
     hits.into_iter().map(|hit| hit.expect("each comes")).collect()
 }
 
-fn one_by_one(scene: &Scene, rays: &[Ray]) -> Vec<Option<Hit>> {
+fn one_by_one<T: Precision>(scene: &Scene<T>, rays: &[Ray]) -> Vec<Option<Hit>> {
     rays.iter().map(|ray| scene.closest_hit(ray)).collect()
 }
 
 #[test]
 fn rays_out_of_range_are_answered_among_others() {
-    let (scene, rays) = scene_and_rays();
+    out_of_range::<f32>();
+    out_of_range::<f64>();
+}
+
+fn out_of_range<T: Precision>() {
+    let (scene, rays) = scene_and_rays::<T>();
     let naive: Vec<_> = rays.iter().map(|ray| scene.shapes().naive().closest_hit(ray)).collect();
     assert!(naive.iter().any(Option::is_some) && naive.iter().any(Option::is_none));
     let (mut hits, mut found) = (vec![None; rays.len()], vec![false; rays.len()]);
@@ -49,7 +60,12 @@ fn rays_out_of_range_are_answered_among_others() {
 
 #[test]
 fn streams_of_unknown_length_of_any_length() {
-    let (scene, rays) = scene_and_rays();
+    of_unknown_length::<f32>();
+    of_unknown_length::<f64>();
+}
+
+fn of_unknown_length<T: Precision>() {
+    let (scene, rays) = scene_and_rays::<T>();
     let expected = one_by_one(&scene, &rays);
     for count in [0, 1, 7, 8, 16, 17, 100, rays.len()] {
         let mut rest = rays[..count].iter();
@@ -61,7 +77,12 @@ fn streams_of_unknown_length_of_any_length() {
 
 #[test]
 fn what_a_batch_calls_may_ask_the_scene() {
-    let (scene, rays) = scene_and_rays();
+    asked_from_within::<f32>();
+    asked_from_within::<f64>();
+}
+
+fn asked_from_within<T: Precision>() {
+    let (scene, rays) = scene_and_rays::<T>();
     let expected = one_by_one(&scene, &rays);
     let few = &rays[..20];
     // Each ray is only made when another batch was answered.

@@ -284,7 +284,12 @@ fn sights_are_rational<T: Precision>(meshes: Vec<(&str, TriangleMesh<T>)>) {
 
 #[test]
 fn hits_go_on_after_any_of_them() {
-    for (name, mesh) in awkward_meshes() {
+    hits_go_on(awkward_meshes());
+    hits_go_on(awkward_meshes_in_f64());
+}
+
+fn hits_go_on<T: Precision>(meshes: Vec<(&str, TriangleMesh<T>)>) {
+    for (name, mesh) in meshes {
         let scene = scene(mesh.clone());
         for ray in Archer::new(&mesh, 71).all_kinds(6, 10.0) {
             let (crossed, touched): (Vec<_>, Vec<_>) =
@@ -303,7 +308,12 @@ fn hits_go_on_after_any_of_them() {
 
 #[test]
 fn the_first_hit_of_those_that_are_kept() {
-    for (name, mesh) in awkward_meshes() {
+    first_hits_are_kept(awkward_meshes());
+    first_hits_are_kept(awkward_meshes_in_f64());
+}
+
+fn first_hits_are_kept<T: Precision>(meshes: Vec<(&str, TriangleMesh<T>)>) {
+    for (name, mesh) in meshes {
         let scene = scene(mesh.clone());
         for ray in Archer::new(&mesh, 72).all_kinds(6, 10.0) {
             let all = scene.shapes().naive().all_hits(&ray, HitRule::Touching);
