@@ -8,12 +8,13 @@ use kdray::{
     BuildOptions, CostModel, Hint, Hit, InstructionSet, KdTree, Precision, Ray, Scene, ShapeScene,
     Side, TriangleMesh,
 };
-use kdray_tests::Subject;
 use kdray_tests::bits::Bits;
 use kdray_tests::oracle::{agrees_on_all, agrees_on_closest};
 use kdray_tests::rays::{Archer, random};
+use kdray_tests::{Subject, meshes};
 use rand::{Rng, RngExt};
 use rayon::prelude::*;
+use std::sync::LazyLock;
 
 /// So many rays at the least, so that batches take turns: fewer are answered one by one.
 const TURNS: usize = 256;
@@ -236,7 +237,16 @@ pub(crate) fn kernel_any_hit<T: Precision>(
     Ok(())
 }
 
-/// Whether the kernels find anything if they begin at hints: of the ray's own hit, of another's, and
+/// Hints of another scene, with a larger tree than those of the cases.
+static HINTS: LazyLock<Vec<Hint>> = LazyLock::new(|| {
+    let mesh: TriangleMesh = meshes::mesh(meshes::soup(5000, [0.0; 3], 1.0, 91));
+    let rays = Archer::new(&mesh, 92).all_kinds(40, 10.0);
+    let scene = Scene::build(mesh, &BuildOptions::default()).expect("a small mesh");
+    let hints = rays.iter().filter_map(|ray| Some(scene.closest_hit_with_hint(ray)?.1));
+    hints.filter(|hint| *hint != Hint::NONE).collect()
+});
+
+/// Whether the kernels find anything if they begin at hints: of the ray's own hit, of another's, of another scene, and
 /// any numbers; for the rays, and for rays of any length off their hits.
 pub(crate) fn kernel_any_hit_near<T: Precision>(
     scene: &Scene<T>,
@@ -254,7 +264,9 @@ pub(crate) fn kernel_any_hit_near<T: Precision>(
         let hinted = scene.closest_hit_with_hint(&aimed.ray);
         same(&hinted.map(|(hit, _)| hit), &aimed.touched.naive.first().copied())?;
         let is_hit = !aimed.touched.naive.is_empty();
-        for hint in [other, Hint::NONE, Hint::from_bits(random.random_range(0..200))] {
+        let numbers = [random.random_range(0..200), random.random()].map(Hint::from_bits);
+        let foreign = HINTS[random.random_range(0..HINTS.len())];
+        for hint in [other, Hint::NONE, foreign].into_iter().chain(numbers) {
             add(aimed.ray, hint, is_hit);
         }
         if let Some((hit, hint)) = hinted {
@@ -274,12 +286,14 @@ pub(crate) fn kernel_any_hit_near<T: Precision>(
     Ok(())
 }
 
-/// A ray off the hit of another, in any direction, from very short to without end.
+/// A ray off the hit of another, in any direction, from very short to long: half of them from the hit itself, as nearly
+/// as that is a number, which touch what they begin at or not.
 fn off(ray: &Ray, t: f64, random: &mut impl Rng) -> Ray {
     let origin = std::array::from_fn(|k| ray.origin[k] + t * ray.direction[k]);
     let direction = [0; 3].map(|_| random.random_range(-1.0..1.0));
     let length = t.abs() * 10.0_f64.powi(random.random_range(-6..6));
     let t_min = random.random_range(0.0..2.0) * 1e-3 * length;
+    let t_min = if random.random() { 0.0 } else { t_min };
     Ray::new(origin, direction).with_interval(t_min, length)
 }
 
