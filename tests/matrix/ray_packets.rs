@@ -10,7 +10,7 @@ use kdray::{
 };
 use kdray_tests::bits::Bits;
 use kdray_tests::rays::random;
-use kdray_tests::{OwnedPacket, Packer};
+use kdray_tests::{OwnedPacket, Packer, Subject};
 use rand::RngExt;
 use rand::seq::IndexedRandom;
 use rand_pcg::Pcg64Mcg;
@@ -190,7 +190,7 @@ pub(crate) fn any_hit<T: Precision>(
 }
 
 /// Answers in float arithmetic to all packets: which they are is checked elsewhere, but that the ids
-/// are of triangles, and t within the interval or close to its ends.
+/// are of triangles, t within the interval or close to its ends, and nothing hit by rays that cannot be.
 pub(crate) fn float<T: Precision>(
     scene: &Scene<T>,
     asked: &Asked,
@@ -198,15 +198,37 @@ pub(crate) fn float<T: Precision>(
 ) -> Result<(), String> {
     let scene = scene.clone().with_arithmetic(Arithmetic::Float);
     let packet = asked.packet.packet();
+    let mut found = vec![false; packet.len()];
     scene.packet_closest_hits(&packet, hits);
-    scene.packet_any_hits(&packet, &mut vec![false; packet.len()]);
-    for index in 0..packet.len() {
-        let Some(hit) = hits.get(index) else { continue };
-        let is_one = (hit.primitive_id as usize) < scene.mesh().triangles().len();
-        let is_sane = is_one && !hit.t.is_nan() && packet.ray(index).check().is_ok();
-        same(asked, index, &is_sane, &true).map_err(|error| format!("{error}: {hit:?}"))?;
+    scene.packet_any_hits(&packet, &mut found);
+    for (index, found) in found.into_iter().enumerate() {
+        let (ray, hit) = (packet.ray(index), hits.get(index));
+        // An end is near the other if there is something between them, but for rounding.
+        let may_hit = ray.check().is_ok() && is_near(&scene, &ray, ray.interval.t_min);
+        let is_sane = match hit {
+            Some(hit) => is_near(&scene, &ray, hit.t) && is_known(&scene, hit.primitive_id),
+            None => true,
+        };
+        let is_right = is_sane && (may_hit || (hit.is_none() && !found));
+        let told = |error| format!("{error}: {hit:?}, any: {found}");
+        same(asked, index, &is_right, &true).map_err(told)?;
     }
     Ok(())
+}
+
+fn is_known<T: Precision>(scene: &Scene<T>, id: u32) -> bool {
+    (id as usize) < scene.mesh().triangles().len()
+}
+
+/// Whether t is in the interval, or as far outside of it as f32 rounds it: by some digits of where it is, and of how
+/// long the ray takes to pass the mesh.
+fn is_near<T: Precision>(scene: &Scene<T>, ray: &Ray, t: f64) -> bool {
+    let Interval { t_min, t_max } = ray.interval;
+    let (min, max) = scene.mesh().extent();
+    let largest = min.into_iter().chain(max).fold(0.0, |most: f64, x| most.max(x.abs()));
+    let speed = ray.direction.into_iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    let slack = 1e-5 * (t.abs() + 4.0 * largest / speed);
+    t_min - slack <= t && t <= t_max + slack
 }
 
 /// In float arithmetic nearly all random rays hit or miss as they do exactly.
