@@ -9,6 +9,6 @@ pub enum Arithmetic {
     Exact,
     /// Plain floating point in f32, as in other libraries: somewhat faster, but rays may slip
     /// through edges and vertices, and t, u and v are good to some five digits. Scenes of f64 vertices
-    /// are exact by this, too.
+    /// are exact by this, too, and so are those rays of a packet that it answers as one.
     Float,
 }

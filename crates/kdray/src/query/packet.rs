@@ -14,7 +14,8 @@ impl<T: Precision> Scene<T> {
     /// Rays are taken in their order, 64 or 512 at a time, and bounded by a frustum, which is
     /// considered first: so they should lie next to each other, tile by tile. Where that does not pay,
     /// and for rays to a target, they are traced like those of [`closest_hits`](Self::closest_hits). So
-    /// are all rays at f64 vertices.
+    /// are all rays at f64 vertices. By [`Arithmetic::Float`](super::Arithmetic::Float) only what packets answer
+    /// is exact: it is left open which rays that is.
     pub fn packet_closest_hits(&self, packet: &RayPacket<'_>, hits: &mut HitArrays) -> PacketWork {
         T::packet_closest_hits(self, packet, hits)
     }
