@@ -1,6 +1,8 @@
-//! Batches that are streamed: of unknown length, within each other, and with rays out of range.
+//! Batches that are streamed: of unknown length, within each other, and with rays out of range; and those that several
+//! threads share.
 
-use kdray::{BuildOptions, Coordinate, Hit, Precision, Ray, Scene};
+use kdray::{BuildOptions, Coordinate, Hit, Instance, InstancedScene, Precision, Ray, Scene};
+use kdray_tests::bits::Bits;
 use kdray_tests::{meshes, rays::Archer};
 
 /// A scene, and rays of all kinds, some of which no kernel takes or nothing hits.
@@ -99,4 +101,81 @@ fn asked_from_within<T: Precision>() {
         scene.each_any_hit(few, |index, is_hit| assert_eq!(is_hit, expected[index].is_some()));
     });
     assert_eq!(came, rays.len());
+}
+
+/// So many rays and points that they are handed out in three pieces or more, the last of which is not whole.
+const MANY_RAYS: usize = 3 * 4096 - 50;
+const MANY_POINTS: usize = 3 * 1024 - 50;
+
+/// What several threads say, where at first there is `before`.
+fn shared<A: Clone + Send>(count: usize, before: A, ask: impl FnOnce(&mut [A]) + Send) -> Vec<A> {
+    let mut answers = vec![before; count];
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(3).build().expect("threads");
+    pool.install(|| ask(&mut answers));
+    answers
+}
+
+fn many_rays<T: Precision>(scene: &Scene<T>) -> Vec<Ray> {
+    let rays = Archer::new(scene.mesh(), 3).all_kinds(1200, 10.0);
+    assert!(rays.len() >= MANY_RAYS);
+    rays[..MANY_RAYS].to_vec()
+}
+
+#[test]
+fn threads_share_rays() {
+    rays_are_shared::<f32>();
+    rays_are_shared::<f64>();
+}
+
+fn rays_are_shared<T: Precision>() {
+    let (scene, _) = scene_and_rays::<T>();
+    let (rays, count) = (many_rays(&scene), MANY_RAYS);
+    let closest = shared(count, None, |it| scene.par_closest_hits(&rays, it));
+    assert!(closest.is_same(&one_by_one(&scene, &rays)));
+    let any = shared(count, false, |it| scene.par_any_hits(&rays, it));
+    assert!(any.iter().zip(&closest).all(|(&any, hit)| any == hit.is_some()));
+    let counts = shared(count, usize::MAX, |it| scene.par_counts(&rays, it));
+    let alone: Vec<_> = rays.iter().map(|ray| scene.count(ray)).collect();
+    assert!(counts == alone && alone.contains(&0) && alone.iter().any(|&count| count > 1));
+}
+
+#[test]
+fn threads_share_points() {
+    points_are_shared::<f32>();
+    points_are_shared::<f64>();
+}
+
+fn points_are_shared<T: Precision>() {
+    let round = meshes::moved(&meshes::sphere(12), |p| p.map(|x| T::from_f64(x / 3.0)));
+    let scene = Scene::build(round, &BuildOptions::default()).expect("a small mesh");
+    let random = kdray_tests::points::points(scene.mesh(), 130, 10.0, 5);
+    assert!(random.len() >= MANY_POINTS);
+    let (points, count) = (&random[..MANY_POINTS], MANY_POINTS);
+    let inside = shared(count, false, |it| scene.par_contains_each(points, it));
+    assert!(points.iter().zip(&inside).all(|(&p, &inside)| inside == scene.contains(p)));
+    assert!(inside.contains(&true) && inside.contains(&false));
+    let closest = shared(count, None, |it| scene.par_closest_points(points, it));
+    assert!(points.iter().zip(&closest).all(|(&p, found)| *found == scene.closest_point(p)));
+    let signed = shared(count, None, |it| scene.par_signed_distances(points, it));
+    assert!(points.iter().zip(&signed).all(|(&p, found)| *found == scene.signed_distance(p)));
+    let winding = shared(count, f64::NAN, |it| scene.par_winding_numbers(points, it));
+    assert!(points.iter().zip(&winding).all(|(&p, &found)| found == scene.winding_number(p)));
+}
+
+#[test]
+fn threads_share_rays_at_copies() {
+    copies_are_shared::<f32>();
+    copies_are_shared::<f64>();
+}
+
+fn copies_are_shared<T: Precision>() {
+    let (scene, _) = scene_and_rays::<T>();
+    let (rays, count) = (many_rays(&scene), MANY_RAYS);
+    let copies = (0..3).map(|i| Instance::of(0).moved([f64::from(i), 0.0, 0.5])).collect();
+    let scene = InstancedScene::build(vec![scene], copies).expect("copies nearby");
+    let closest = shared(count, None, |it| scene.par_closest_hits(&rays, it));
+    assert!(rays.iter().zip(&closest).all(|(ray, hit)| *hit == scene.closest_hit(ray)));
+    let any = shared(count, false, |it| scene.par_any_hits(&rays, it));
+    assert!(any.iter().zip(&closest).all(|(&any, hit)| any == hit.is_some()));
+    assert!(any.contains(&true) && any.contains(&false));
 }
