@@ -201,10 +201,25 @@ fn sah_expects_the_least_cost() {
 fn the_number_of_threads_makes_no_difference() {
     let mesh = mesh(random_soup(30_000, 0.02, false, 15));
     for options in all_options() {
-        let trees = [1, 2, 3].map(|threads| {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            pool.install(|| KdTree::build(&mesh, &options).unwrap())
-        });
-        assert!(trees[0] == trees[1] && trees[0] == trees[2], "{options:?}");
+        assert_same_on_threads(&mesh, &options);
     }
+}
+
+/// Of so many references several threads share each node of the first levels; there is no need of more levels.
+#[cfg(feature = "rayon")]
+#[test]
+fn the_number_of_threads_makes_no_difference_to_large_nodes() {
+    let mesh = mesh(random_soup(80_000, 0.02, false, 16));
+    for options in all_options() {
+        assert_same_on_threads(&mesh, &BuildOptions { max_depth: Some(3), ..options });
+    }
+}
+
+#[cfg(feature = "rayon")]
+fn assert_same_on_threads(mesh: &kdray::TriangleMesh, options: &BuildOptions) {
+    let trees = [1, 2, 3].map(|threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| KdTree::build(mesh, options).unwrap())
+    });
+    assert!(trees[0] == trees[1] && trees[0] == trees[2], "{options:?}");
 }
