@@ -1,12 +1,9 @@
 //! What kdray says of a volley: every query of the leaf walk, and closest, any and all hits by every kernel.
 
-use super::{Attacked, Volley};
+use super::{Attacked, FEW, Volley};
 use crate::flat::Flat;
 use kdray::primitives::{HitArrays, HitRule};
 use kdray::{Hint, Hit, InstructionSet, Interval, Precision, Ray, Scene};
-
-/// Meshes of more triangles are too many to test each, and to be watched.
-const FEW: usize = 2000;
 
 /// All that was said.
 #[derive(Clone, Debug)]

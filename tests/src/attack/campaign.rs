@@ -4,7 +4,7 @@ use super::aim::Gunner;
 use super::case::{Case, Tamper, shoot};
 use super::verdict::Judge;
 use super::volley::SIZE;
-use super::{AnyTarget, Attacked, Tally, Target, settings, targets, trees};
+use super::{AnyTarget, Attacked, FEW, Tally, Target, settings, targets, trees};
 use crate::flat::Flat;
 use kdray::Scene;
 use rayon::prelude::*;
@@ -213,14 +213,14 @@ impl Outcome {
     }
 
     fn is_small(&self) -> bool {
-        self.triangles <= 2000
+        self.triangles <= FEW
     }
 
     /// How many times as many volleys it has as a large target.
     fn weight(&self) -> u64 {
         match self.triangles {
-            0..=2_000 => targets::VOLLEYS,
-            2_001..=50_000 => 2,
+            _ if self.is_small() => targets::VOLLEYS,
+            ..=50_000 => 2,
             _ => 1,
         }
     }

@@ -27,6 +27,9 @@ pub mod truth;
 pub mod verdict;
 pub mod volley;
 
+/// Targets of more triangles are not asked all that takes long for each triangle.
+const FEW: usize = 2000;
+
 pub use attacked::Attacked;
 pub use campaign::{Campaign, Limits};
 pub use case::{Case, assert_right};

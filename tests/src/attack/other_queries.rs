@@ -2,7 +2,7 @@
 
 use super::campaign::Visit;
 use super::placed::Copies;
-use super::{Attacked, Tally, points, saved, volley};
+use super::{Attacked, FEW, Tally, points, saved, volley};
 use crate::rays::random;
 
 /// How many rays there are to a point in the first volleys at a target, and to one in the others.
@@ -16,9 +16,6 @@ const FIRST: u64 = 128;
 
 /// How many rays at most are put to a tree file.
 const RAYS_AT_FILES: usize = 16;
-
-/// Larger trees are not saved for every setting, and not damaged.
-const FEW: usize = 2000;
 
 impl<T: Attacked> Visit<'_, T> {
     /// All that is asked besides rays at one tree.

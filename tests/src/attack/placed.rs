@@ -7,7 +7,7 @@ use super::aim::Gunner;
 use super::answers::Walked;
 use super::points_truth::is_difference_exact;
 use super::verdict::judge_hits;
-use super::{Tally, Target, Truth};
+use super::{FEW, Tally, Target, Truth};
 use crate::flat::Flat;
 use crate::meshes::{Soup, mesh};
 use kdray::{
@@ -20,9 +20,6 @@ use rand_pcg::Pcg64Mcg;
 
 /// How many copies there are.
 const COPIES: usize = 4;
-
-/// Meshes of more triangles are not copied.
-const FEW: usize = 2000;
 
 /// Where a copy is: its axis k is the axis `from[k]` of the mesh times `by[k]`, and `offset[k]` is added.
 #[derive(Clone, Copy, Debug)]

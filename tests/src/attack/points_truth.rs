@@ -1,8 +1,8 @@
 //! What is true of points: distances in rational arithmetic, sides by counting, and what is in the way.
 
-use super::Truth;
 use super::target::Target;
 use super::truth::Place;
+use super::{FEW, Truth};
 use crate::flat::Flat;
 use crate::oracle::{exact_distance_squared, is_between};
 use glam::DVec3;
@@ -10,9 +10,6 @@ use kdray::{Coordinate, Interval, Ray, Side};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
-
-/// Triangles of more are too many to sum over for each point.
-const FEW: usize = 2000;
 
 /// Differences, lengths, products and sums of a solid angle have fewer than thirty roundings.
 const ROUNDINGS: f64 = 32.0 / (1_u64 << 53) as f64;

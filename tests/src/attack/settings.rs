@@ -5,7 +5,7 @@ use kdray::{BuildOptions, CostModel, Preset, Strategy};
 /// The names of all settings: each strategy with leaves of one triangle, where it can, and each preset.
 pub const NAMES: [&str; 7] = ["sah", "balanced", "middle", "fast", "median", "best", "round-robin"];
 
-/// The settings of a name; all give wide trees. Those of the default for a name that nothing has.
+/// The settings of a name; all give wide trees, but of sizes that these do not reach. Those of the default for a name that nothing has.
 pub fn named(name: &str) -> BuildOptions {
     let blocks = |options: BuildOptions| BuildOptions {
         leaf_size: 1,
