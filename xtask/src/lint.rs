@@ -12,6 +12,10 @@ pub(crate) fn run() -> Result<(), String> {
     let mut steps = Steps::new();
     let doc = [("RUSTDOCFLAGS", "-D warnings")];
     steps.cargo("format", "fmt --all --check", &[])?;
+    // A workspace of its own.
+    let fuzzing = concat!(env!("CARGO_MANIFEST_DIR"), "/../fuzz/Cargo.toml");
+    let arguments = ["fmt", "--check", "--manifest-path", fuzzing].map(str::to_owned);
+    steps.cargo_with("format of the programs that fuzz", &arguments, &[])?;
     steps.cargo("clippy", "clippy --workspace --all-targets -- -D warnings", &[])?;
     let bare = "clippy -p kdray --all-targets --no-default-features -- -D warnings";
     steps.cargo("clippy, library without default features", bare, &[])?;
