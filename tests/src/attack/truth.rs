@@ -67,7 +67,7 @@ impl Truth {
         is_asked_for: impl Fn(u32) -> bool,
     ) -> Self {
         let mut truth = Self::default();
-        if ray.check().is_err() {
+        if !can_hit(ray) {
             return truth;
         }
         let view = View::of(ray, flat.scale());
@@ -118,11 +118,14 @@ impl TrueHit {
     /// How it lies to an interval. An end of zero leaves no doubt, for signs are exact.
     pub fn place(&self, interval: Interval) -> Place {
         let at = |end: f64| end != 0.0 && self.is_at(end);
-        if interval.is_empty() {
+        let Interval { t_min, t_max } = interval;
+        // It is not if one is NaN.
+        let is_ordered = t_min <= t_max;
+        if !is_ordered {
             Place::Outside
-        } else if self.t.abs() > 1e308 || at(interval.t_min) || at(interval.t_max) {
+        } else if self.t.abs() > 1e308 || at(t_min) || at(t_max) {
             Place::AtEnd
-        } else if interval.contains(self.t) {
+        } else if t_min <= self.t && self.t <= t_max {
             Place::Inside
         } else {
             Place::Outside
@@ -132,6 +135,13 @@ impl TrueHit {
     fn tolerance(&self) -> f64 {
         T_TOLERANCE * self.t.abs() + f64::from_bits(4)
     }
+}
+
+/// Whether a ray can hit anything: its numbers are some, and it leads somewhere.
+pub(super) fn can_hit(ray: &Ray) -> bool {
+    let Interval { t_min, t_max } = ray.interval;
+    let are_finite = ray.origin.iter().chain(&ray.direction).all(|x| x.is_finite());
+    are_finite && ray.direction != [0.0; 3] && !t_min.is_nan() && !t_max.is_nan()
 }
 
 /// The oracle's answer.

@@ -1,7 +1,7 @@
 //! What is wrong of kdray's answers.
 
 use super::answers::{Answers, Said, Walked};
-use super::truth::{Place, TrueHit};
+use super::truth::{Place, TrueHit, can_hit};
 use super::{Extent, Tally, Target, Truth, Volley};
 use crate::bits::Bits;
 use crate::flat::Flat;
@@ -60,7 +60,7 @@ impl<'a, T: Precision> Judge<'a, T> {
     ) {
         let (least, most) = truth.count(ray.interval);
         let in_range = (least..=most).contains(&walked.count);
-        let is_endless = self.is_closed && ray.interval == Interval::FORWARD && ray.check().is_ok();
+        let is_endless = self.is_closed && ray.interval == Interval::FORWARD && can_hit(ray);
         let parity = match is_endless {
             true if from_inside => Some(1),
             true if !self.extent.contains(ray.origin) => Some(0),
@@ -155,7 +155,8 @@ fn judge_list(tally: &mut Tally, ray: &Ray, truth: &[TrueHit], found: &[Hit]) {
     for pair in found.windows(2) {
         let nearer = |a: &Hit, b: &Hit| Some(truth[known(a)?].precedes(&truth[known(b)?]));
         let is_same = pair[0].primitive_id == pair[1].primitive_id;
-        let rises = is_same || pair[0].precedes(&pair[1]);
+        let [first, second] = [pair[0], pair[1]].map(|hit| (hit.t, hit.primitive_id));
+        let rises = is_same || first < second;
         if !rises || nearer(&pair[1], &pair[0]) == Some(true) {
             tally.disordered += 1;
             tally.tell(ray, || format!("{:?} stands before {:?}", pair[0], pair[1]));
