@@ -3,6 +3,7 @@
 
 use kdray::{RayPacket, Scene};
 use kdray_tests::meshes;
+use kdray_tests::sets::by_each_set;
 
 /// Looks at a grid past its sides, from far below: two rays that miss it, so that the frustum has all of
 /// it and is given up, and another one.
@@ -16,9 +17,11 @@ fn found(towards: bool, [x, y, z]: [f64; 3]) -> [bool; 3] {
     let each = [&x[..], &y[..], &z[..]];
     let packet = if towards { RayPacket::towards(eye, each) } else { RayPacket::from(eye, each) };
     let mut found = [false; 3];
-    scene.packet_any_hits(&packet, &mut found);
-    for (index, found) in found.iter().enumerate() {
-        assert_eq!(*found, scene.any_hit(&packet.ray(index)), "{:?}", packet.ray(index));
+    for scene in by_each_set(&scene) {
+        scene.packet_any_hits(&packet, &mut found);
+        for (index, found) in found.iter().enumerate() {
+            assert_eq!(*found, scene.any_hit(&packet.ray(index)), "{:?}", packet.ray(index));
+        }
     }
     found
 }

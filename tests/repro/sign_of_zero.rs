@@ -3,11 +3,16 @@
 use kdray::primitives::HitArrays;
 use kdray::{BuildOptions, RayPacket, Scene};
 use kdray_tests::meshes;
+use kdray_tests::sets::by_each_set;
 
 #[test]
 fn zeros_of_packets_have_the_sign_of_those_of_single_rays() {
     let mesh = meshes::mesh(meshes::grid(4, 2));
     let scene = Scene::build(mesh, &BuildOptions::default()).unwrap();
+    by_each_set(&scene).for_each(assert_same_zeros);
+}
+
+fn assert_same_zeros(scene: Scene) {
     let places: Vec<[f64; 3]> = (0..256).map(|i| [i % 16, i / 16, 0].map(f64::from)).collect();
     let column = |axis: usize| places.iter().map(|p| 0.25 * p[axis]).collect::<Vec<_>>();
     for eye in [[2.5, 1.5, 6.0], [-1.5, 0.5, 3.0], [2.5, 1.5, -6.0], [9.5, 7.5, -4.0]] {

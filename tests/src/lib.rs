@@ -19,6 +19,7 @@ pub mod parity;
 pub mod peers;
 pub mod points;
 pub mod rays;
+pub mod sets;
 pub mod shared;
 pub mod subject;
 
