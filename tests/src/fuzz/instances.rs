@@ -2,8 +2,9 @@
 
 use super::build_and_query::built;
 use super::draw::Draw;
+use super::instructions;
 use glam::{DAffine3, DVec3};
-use kdray::{Instance, InstanceHit, InstancedScene, Precision, Ray, Scene};
+use kdray::{Instance, InstanceHit, InstancedScene, InstructionSet, Precision, Ray, Scene};
 
 /// How far away rays may begin to be carried well, in largest coordinates over how unevenly a matrix stretches: less
 /// than the 2^30 that are documented.
@@ -12,14 +13,15 @@ const REACH: f64 = (1 << 28) as f64;
 /// Runs an input.
 pub fn run(data: &[u8]) {
     let mut draw = Draw::new(data);
-    if draw.bit() { ask::<f64>(&mut draw) } else { ask::<f32>(&mut draw) }
+    let set = instructions(data);
+    if draw.bit() { ask::<f64>(&mut draw, set) } else { ask::<f32>(&mut draw, set) }
 }
 
-fn ask<T: Precision>(draw: &mut Draw<'_>) {
+fn ask<T: Precision>(draw: &mut Draw<'_>, set: InstructionSet) {
     let mut geometries = Vec::new();
     for _ in 0..=draw.below(2) {
         let mesh = draw.mesh::<T>();
-        geometries.extend(built(mesh, draw));
+        geometries.extend(built(mesh, draw).map(|scene| scene.with_instructions(set)));
     }
     let instances: Vec<_> = (0..draw.below(12)).map(|_| instance(draw)).collect();
     // A matrix may be refused, and a geometry may not be there.

@@ -2,20 +2,23 @@
 
 use super::build_and_query::built;
 use super::draw::Draw;
+use super::instructions;
 use crate::points::{corners, naive_closest_point};
 use kdray::exact::{is_on_triangle, segment_crosses};
 use kdray::primitives::HitRule;
-use kdray::{Closure, Precision, Ray, Scene, Side};
+use kdray::{Closure, InstructionSet, Precision, Ray, Scene, Side};
 
 /// Runs an input.
 pub fn run(data: &[u8]) {
     let mut draw = Draw::new(data);
-    if draw.bit() { ask::<f64>(&mut draw) } else { ask::<f32>(&mut draw) }
+    let set = instructions(data);
+    if draw.bit() { ask::<f64>(&mut draw, set) } else { ask::<f32>(&mut draw, set) }
 }
 
-fn ask<T: Precision>(draw: &mut Draw<'_>) {
+fn ask<T: Precision>(draw: &mut Draw<'_>, set: InstructionSet) {
     let mesh = draw.mesh::<T>();
     let Some(scene) = built(mesh, draw) else { return };
+    let scene = scene.with_instructions(set);
     let mut last = [0.0; 3];
     for _ in 0..8 {
         let point = draw.aim(scene.mesh());

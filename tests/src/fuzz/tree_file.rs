@@ -1,11 +1,12 @@
 //! Tree files, of which every checksum is made right, so that what comes behind it is reached.
 
 use super::draw::Draw;
+use super::instructions;
 use kdray::file::{HEADER_BYTES, file_bytes};
 use kdray::geometry::RayPacket;
 use kdray::memory::{AlignedBytes, SharedBytes};
 use kdray::primitives::{HitArrays, HitRule};
-use kdray::{Arithmetic, Hit, Precision, Ray, Scene, Side};
+use kdray::{Arithmetic, Hit, InstructionSet, Precision, Ray, Scene, Side};
 use std::sync::Arc;
 use twox_hash::XxHash3_64;
 
@@ -21,8 +22,9 @@ pub fn run(data: &[u8]) {
     {
         let rest = sealed.split_off(length);
         seal(&mut sealed);
-        open_and_ask::<f32>(&sealed, &rest);
-        open_and_ask::<f64>(&sealed, &rest);
+        let set = instructions(data);
+        open_and_ask::<f32>(&sealed, &rest, set);
+        open_and_ask::<f64>(&sealed, &rest, set);
     } else {
         open::<f32>(&sealed);
         open::<f64>(&sealed);
@@ -50,14 +52,15 @@ fn open<T: Precision>(file: &[u8]) {
     }
 }
 
-fn open_and_ask<T: Precision>(file: &[u8], rest: &[u8]) {
+fn open_and_ask<T: Precision>(file: &[u8], rest: &[u8], set: InstructionSet) {
     let opened = Scene::<T>::open(shared(file));
-    let loaded = Scene::<T>::load(shared(file));
+    let loaded = Scene::<T>::load(shared(file)).map(|scene| scene.with_instructions(set));
     let Ok(opened) = opened else {
         assert!(loaded.is_err(), "what cannot be opened is not loaded");
         return;
     };
     assert_eq!(opened.verify().err(), loaded.as_ref().err().copied());
+    let opened = opened.with_instructions(set);
     let mut draw = Draw::new(rest);
     for _ in 0..8 {
         let ray = draw.ray(opened.mesh());
