@@ -6,7 +6,7 @@ use super::{Attacked, Tally, Volley};
 use crate::flat::Flat;
 use kdray::memory::AlignedBytes;
 use kdray::primitives::HitRule;
-use kdray::{FileError, Precision, Scene};
+use kdray::{FileError, InstructionSet, Precision, Scene};
 use rand::RngExt;
 use rand_pcg::Pcg64Mcg;
 use std::convert::Infallible;
@@ -18,11 +18,20 @@ type Read<T> = fn(&[u8]) -> Result<Scene<T>, FileError>;
 
 /// Saves a scene, reads it in both ways, and puts a volley to what comes back.
 pub fn attack<T: Attacked>(scene: &Scene<T>, flat: &Flat<T>, volley: &Volley) -> Tally {
+    attack_by(&[("loaded", load), ("opened", open)], scene, flat, volley)
+}
+
+/// The same with these ways to read a file.
+fn attack_by<T: Attacked>(
+    ways: &[(&str, Read<T>)],
+    scene: &Scene<T>,
+    flat: &Flat<T>,
+    volley: &Volley,
+) -> Tally {
     let mut tally = Tally::default();
     let bytes = saved(scene);
-    let ways: [(&str, Read<T>); 2] = [("loaded", load), ("opened", open)];
     let walked: Vec<Walked> = volley.rays.iter().map(|ray| Walked::of(scene, ray)).collect();
-    for (name, read) in ways {
+    for &(name, read) in ways {
         tally.files += 1;
         match read(&bytes) {
             Ok(again) => {
@@ -47,6 +56,18 @@ pub fn damage<T: Precision>(
     count: u64,
     random: &mut Pcg64Mcg,
 ) -> Tally {
+    damage_for([load, open], scene, volley, count, random)
+}
+
+/// The same for who reads with care, and who trusts the file.
+fn damage_for<T: Precision>(
+    [load, open]: [Read<T>; 2],
+    scene: &Scene<T>,
+    volley: &Volley,
+    count: u64,
+    random: &mut Pcg64Mcg,
+) -> Tally {
+    let sets = InstructionSet::available();
     let mut tally = Tally::default();
     let whole = saved(scene);
     for _ in 0..count {
@@ -62,13 +83,15 @@ pub fn damage<T: Precision>(
             continue;
         }
         tally.files += 1;
-        let loaded = catch_unwind(|| load::<T>(&bytes).map(|_| ()));
+        let loaded = catch_unwind(|| load(&bytes).map(|_| ()));
         if !matches!(loaded, Ok(Err(_))) {
             misread(&mut tally, || format!("damaged at {place}, loaded: {loaded:?}"));
         }
         // Not all damage is seen by whoever trusts the file; but nothing may panic.
+        let set = sets[random.random_range(0..sets.len())];
         let asked = AssertUnwindSafe(|| {
-            if let Ok(scene) = open::<T>(&bytes) {
+            if let Ok(scene) = open(&bytes) {
+                let scene = scene.with_instructions(set);
                 for ray in &volley.rays {
                     let _ = (scene.closest_hit(ray), scene.any_hit(ray), scene.count(ray));
                 }
@@ -118,4 +141,61 @@ fn load<T: Precision>(bytes: &[u8]) -> Result<Scene<T>, FileError> {
 
 fn open<T: Precision>(bytes: &[u8]) -> Result<Scene<T>, FileError> {
     Scene::open(Arc::new(AlignedBytes::from(bytes)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::meshes::{soup, torus};
+    use crate::rays::{Archer, random};
+    use kdray::{BuildOptions, TriangleMesh};
+
+    fn scene(mesh: TriangleMesh) -> Scene {
+        Scene::build(mesh, &BuildOptions::default()).unwrap()
+    }
+
+    /// A scene that no file holds.
+    fn other(_: &[u8]) -> Result<Scene, FileError> {
+        Ok(scene(crate::meshes::mesh(soup(20, [0.0; 3], 1.0, 3))))
+    }
+
+    fn panics(_: &[u8]) -> Result<Scene, FileError> {
+        panic!("a test of panics")
+    }
+
+    fn volley(scene: &Scene) -> Volley {
+        Volley::of_rays(Archer::new(scene.mesh(), 1).all_kinds(1, 10.0))
+    }
+
+    #[test]
+    fn damaged_files_that_are_read_are_counted() {
+        let scene = scene(torus(10, 7));
+        let volley = volley(&scene);
+        let misread = |readers: [Read<f32>; 2]| {
+            let tally = damage_for(readers, &scene, &volley, 40, &mut random(5));
+            assert!(tally.files > 30, "{tally:?}");
+            (tally.misread, tally.files)
+        };
+        assert_eq!(misread([load, open]).0, 0);
+        for readers in [[other, open], [load, panics], [panics, open]] {
+            let (misread, files) = misread(readers);
+            assert_eq!(misread, files);
+        }
+        // Who trusts a file sees not all damage.
+        assert!(misread([open, open]).0 > 5);
+    }
+
+    #[test]
+    fn whole_files_that_answer_otherwise_are_counted() {
+        let scene = scene(torus(10, 7));
+        let (flat, volley) = (Flat::new(scene.mesh()), volley(&scene));
+        let errors = |read: Read<f32>| {
+            let tally = attack_by(&[("read", read)], &scene, &flat, &volley);
+            [tally.misread, tally.differing]
+        };
+        assert_eq!(errors(load), [0; 2]);
+        assert_eq!(errors(|_| Err(FileError::NotATreeFile)), [1, 0]);
+        let [misread, differing] = errors(other);
+        assert!(misread == 1 && differing > 0, "{differing}");
+    }
 }

@@ -27,11 +27,20 @@ pub fn differing<T: Precision>(
     options: &BuildOptions,
     rays: &[Ray],
 ) -> (u64, u64) {
+    let build = || Scene::build(mesh.clone(), options).expect("targets are valid");
+    differing_among(&build, rays)
+}
+
+/// The same of what `build` gives.
+fn differing_among<T: Precision>(
+    build: &(dyn Fn() -> Scene<T> + Sync),
+    rays: &[Ray],
+) -> (u64, u64) {
     let mut prints = Vec::new();
     for threads in THREADS {
         let pool = ThreadPoolBuilder::new().num_threads(threads).build();
         pool.expect("threads can be started").install(|| {
-            let scene = Scene::build(mesh.clone(), options).expect("targets are valid");
+            let scene = build();
             let tree = fingerprint_of_tree(&scene);
             for set in InstructionSet::available() {
                 let scene = scene.clone().with_instructions(set);
@@ -78,5 +87,18 @@ mod tests {
         assert_eq!(print(meshes::mesh(soup.clone())), first);
         soup[7][0][1] = soup[7][0][1].next_up();
         assert_ne!(print(meshes::mesh(soup)), first);
+    }
+
+    #[test]
+    fn what_depends_on_the_number_of_threads_is_counted() {
+        let scene = |size: f32| {
+            let soup = meshes::soup(50, [0.0; 3], size, 1);
+            Scene::build(meshes::mesh(soup), &BuildOptions::default()).unwrap()
+        };
+        let sets = InstructionSet::available().len() as u64;
+        let all = sets * THREADS.len() as u64;
+        assert_eq!(differing_among(&|| scene(1.0), &[]), (0, all));
+        let on_two = || scene(if rayon::current_num_threads() == 2 { 1.5 } else { 1.0 });
+        assert_eq!(differing_among(&on_two, &[]), (sets, all));
     }
 }
