@@ -1,5 +1,6 @@
 //! `cargo xtask fuzz`.
 
+mod again;
 mod folders;
 mod keep;
 mod ledger;
@@ -57,6 +58,7 @@ pub(crate) fn run(options: &Options) -> Result<(), String> {
         if options.keep {
             keep::keep(&folders, target, &stop)?;
         } else {
+            again::run(&folders, target, &stop)?;
             let limit = Duration::from_secs_f64(60.0 * options.minutes);
             let spent = session::run(&folders, target, limit, &stop)?;
             ledger.add(&folders, &target.name, spent)?;
