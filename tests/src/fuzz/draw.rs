@@ -150,7 +150,7 @@ impl<'a> Draw<'a> {
             3 => {
                 let mut beside = a;
                 let axis = usize::from(kind >> 3) % 3;
-                beside[axis] = beside[axis].next_up();
+                beside[axis] = beside[axis].next_up().min(f64::MAX);
                 beside
             }
             4 => {
