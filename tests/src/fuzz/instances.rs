@@ -95,7 +95,10 @@ fn check_instance<T: Precision>(
     for (all, found) in all.into_iter().zip(found) {
         let expected: Vec<_> = if is_seen { all } else { Vec::new() };
         let found = found.iter().filter(|it| it.instance_id == id).map(|it| it.hit);
-        assert!(found.eq(expected.iter().copied()), "{expected:?} of {instance:?} and {ray:?}");
+        assert!(
+            found.eq(expected.iter().copied()),
+            "{expected:?} as {instance:?} is placed, {ray:?}"
+        );
     }
 }
 
@@ -152,4 +155,45 @@ fn check_hit<T: Precision>(scene: &InstancedScene<T>, ray: &Ray, found: &Instanc
     let mesh = scene.geometries()[*geometry_id as usize].mesh();
     assert!((hit.primitive_id as usize) < mesh.triangles().len(), "{hit:?}");
     let _ = scene.geometric_normal(found);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::meshes::{moved, torus};
+    use crate::rays::Archer;
+    use kdray::{BuildOptions, Coordinate};
+
+    /// How many hits are checked on copies, one of them turned, of rays at the mesh.
+    fn checked<T: Precision>(spoil: impl Fn(&mut Vec<InstanceHit>)) -> usize {
+        let mesh = moved(&torus(8, 6), |p| p.map(|x| <T as Coordinate>::from_f64(x / 3.0)));
+        let rays = Archer::new(&mesh, 1).all_kinds(4, 100.0);
+        let geometry = Scene::build(mesh, &BuildOptions::default()).unwrap();
+        let turned = [[0.6, -0.8, 0.0, 0.1], [0.8, 0.6, 0.0, 0.2], [0.0, 0.0, 1.5, 0.3]];
+        let copies = vec![Instance::of(0), Instance::of(0).placed(turned)];
+        let scene = InstancedScene::build(vec![geometry], copies).unwrap();
+        let mut hits = 0;
+        for ray in &rays {
+            let mut touched: Vec<_> = scene.all_touched(ray).collect();
+            let crossed: Vec<_> = scene.all_hits(ray).collect();
+            spoil(&mut touched);
+            for (id, instance) in (0..).zip(scene.instances()) {
+                let is_near = carried(&scene, &scene.geometries()[0], instance, ray).1;
+                hits += touched.iter().filter(|it| is_near && it.instance_id == id).count();
+                check_instance(&scene, id, true, ray, [&touched, &crossed]);
+            }
+        }
+        hits
+    }
+
+    #[test]
+    fn rays_nearby_are_checked() {
+        assert!(checked::<f32>(|_| {}) > 50 && checked::<f64>(|_| {}) > 50);
+    }
+
+    #[test]
+    #[should_panic(expected = "placed")]
+    fn a_lost_hit_is_found() {
+        checked::<f32>(|touched| touched.retain(|it| it.instance_id == 0));
+    }
 }
