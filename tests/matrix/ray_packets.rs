@@ -203,8 +203,7 @@ pub(crate) fn float<T: Precision>(
     scene.packet_any_hits(&packet, &mut found);
     for (index, found) in found.into_iter().enumerate() {
         let (ray, hit) = (packet.ray(index), hits.get(index));
-        // An end is near the other if there is something between them, but for rounding.
-        let may_hit = ray.check().is_ok() && is_near(&scene, &ray, ray.interval.t_min);
+        let may_hit = ray.check().is_ok() && !ray.interval.is_empty();
         let is_sane = match hit {
             Some(hit) => is_near(&scene, &ray, hit.t) && is_known(&scene, hit.primitive_id),
             None => true,

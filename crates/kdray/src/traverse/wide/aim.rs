@@ -119,7 +119,10 @@ impl Aim {
         let t_end = reach * (2.5 * LARGEST_COMPONENT);
         let &Line { scale, shift, moving, .. } = line;
         let (t_min, t_max) = (ray.interval.t_min * scale, ray.interval.t_max * scale);
-        let is_open = t_min <= t_max && t_min < f64::INFINITY && t_max > f64::NEG_INFINITY;
+        // Of the ray's own numbers: what is smaller may vanish.
+        let is_open = ray.interval.t_min <= ray.interval.t_max
+            && t_min < f64::INFINITY
+            && t_max > f64::NEG_INFINITY;
         let slack = |t: f64| (t.abs() + shift.abs()) * HIT_ERROR;
         let t_near = larger(t_min - shift - slack(t_min), -t_end);
         let t_far = -larger(shift - t_max - slack(t_max), -t_end);
