@@ -7,7 +7,7 @@ use cases::{
     of_many_digits,
 };
 use kdray::exact::side_of_plane;
-use kdray::primitives::{HitRule, solid_angle};
+use kdray::primitives::{HitRule, closest_on_triangle, solid_angle};
 use kdray::{BuildOptions, Closure, Hit, Precision, Ray, Scene, Side, Strategy, TriangleMesh};
 use kdray_tests::closed::closed_part;
 use kdray_tests::meshes::{boxes, grid, mesh, mesh_in_f64, moved, soup, sphere, torus};
@@ -55,6 +55,33 @@ fn nearest_points_are_naive<T: Precision>(meshes: Vec<(&str, TriangleMesh<T>)>) 
 fn the_distance_is_that_of_rational_arithmetic() {
     distances_are_rational(awkward_meshes());
     distances_are_rational(awkward_meshes_in_f64());
+}
+
+/// Triangles from wide ones to such that f64 hardly has, turned anyhow; points over their insides and borders, from next to
+/// them to far away.
+#[test]
+fn the_distance_from_a_slender_triangle_is_that_of_rational_arithmetic() {
+    let mut random = random(31);
+    let mut unit = |size: f64| [(); 3].map(|()| size * random.random_range(-1.0..1.0));
+    for round in 0..20_000 {
+        let sine = 2.0_f64.powi(-(round % 49));
+        let (a, along, aside) = (unit(0.5), unit(1.0), unit(1.0));
+        let (u, v) = (unit(1.0)[0].abs(), unit(1.0)[1].abs());
+        let height = 10.0_f64.powf(7.0 * unit(1.0)[0] - 5.0);
+        let b = [0, 1, 2].map(|k| a[k] + along[k]);
+        let stretch = 0.5 + v;
+        let c = [0, 1, 2].map(|k| a[k] + stretch * along[k] + sine * aside[k]);
+        let across = |i: usize, j: usize| along[i] * aside[j] - along[j] * aside[i];
+        let normal = [across(1, 2), across(2, 0), across(0, 1)];
+        let (u, v) = if u + v > 1.0 { (1.0 - u, 1.0 - v) } else { (u, v) };
+        let over = |k: usize| a[k] + u * (b[k] - a[k]) + v * (c[k] - a[k]) + height * normal[k];
+        let (point, corners) = ([over(0), over(1), over(2)], [a, b, c]);
+        let found = closest_on_triangle(point, corners, 0);
+        let away = |p: &[f64; 3]| (0..3).map(|k| p[k] - point[k]).fold(0.0, f64::hypot);
+        let error = 2.0_f64.powi(-46) * corners.iter().map(away).fold(0.0, f64::max);
+        let exact = exact_distance_squared(point, &corners);
+        assert!(is_distance(found.distance, error, &exact), "{corners:?} {point:?}: {found:?}");
+    }
 }
 
 fn distances_are_rational<T: Precision>(meshes: Vec<(&str, TriangleMesh<T>)>) {

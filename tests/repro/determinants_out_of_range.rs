@@ -26,7 +26,10 @@ fn meshes_of_any_size_are_placed() {
             let scene = InstancedScene::build(vec![square::<f64>(1.0 / scale)], vec![copy]);
             let scene = scene.unwrap_or_else(|error| panic!("2^{exponent}: {error}"));
             let ray = |x: f64| Ray::new([x, 0.5, 9.0], [0.0, 0.0, -1.0]);
-            assert_eq!(scene.closest_hit(&ray(0.25)).map(|found| found.hit.t), Some(7.0));
+            let found = scene.closest_hit(&ray(0.25)).expect("a hit");
+            // Twice the area of half of the square; a mirrored copy has the same front.
+            let normal = scene.geometric_normal(&found);
+            assert_eq!((found.hit.t, normal), (7.0, [0.0, 0.0, 4.0]), "2^{exponent}");
             assert_eq!(scene.closest_hit(&ray(1.25)), None, "2^{exponent}");
         }
     }

@@ -186,7 +186,7 @@ fn moved(mesh: &TriangleMesh, by: [f32; 3]) -> TriangleMesh {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{aim::kind, settings};
+    use super::super::aim::kind;
     use super::*;
     use kdray::{BuildOptions, Scene};
     use std::collections::HashSet;
@@ -199,12 +199,11 @@ mod tests {
     }
 
     #[test]
-    fn few_volleys_at_each_are_of_all_kinds_at_trees_of_all_settings() {
+    fn few_volleys_at_each_are_of_all_kinds() {
         let firsts: Vec<u64> = made().iter().map(AnyTarget::first).collect();
         let numbers = firsts.iter().flat_map(|&first| first..first + VOLLEYS);
         let kinds: HashSet<u64> = numbers.map(kind).collect();
         assert_eq!(kinds.len(), 60);
-        assert!(firsts.len() >= settings::NAMES.len());
     }
 
     #[test]

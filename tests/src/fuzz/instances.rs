@@ -154,7 +154,8 @@ fn check_hit<T: Precision>(scene: &InstancedScene<T>, ray: &Ray, found: &Instanc
     assert_eq!(scene.instances()[*instance_id as usize].geometry_id, *geometry_id);
     let mesh = scene.geometries()[*geometry_id as usize].mesh();
     assert!((hit.primitive_id as usize) < mesh.triangles().len(), "{hit:?}");
-    let _ = scene.geometric_normal(found);
+    let normal = scene.geometric_normal(found);
+    assert!(normal.iter().all(|x| !x.is_nan()), "{normal:?} of {found:?}");
 }
 
 #[cfg(test)]

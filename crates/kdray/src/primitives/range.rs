@@ -2,12 +2,12 @@
 
 use crate::geometry::inverse_power_of_two;
 use glam::DVec3;
-use std::ops::{Div, Range};
+use std::ops::Range;
 
 /// How large differences may be so that products of four neither over- nor underflow.
 const SIZES: Range<f64> = power_of_two(-200)..power_of_two(250);
 
-/// By what points were multiplied: a power of two. To divide by it brings lengths and points back.
+/// By what points were multiplied: a power of two.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Scale {
     factor: f64,
@@ -18,26 +18,18 @@ pub(crate) struct Scale {
 
 impl Scale {
     const ONE: Self = Self { factor: 1.0, common: DVec3::ZERO };
-}
 
-/// A length.
-impl Div<Scale> for f64 {
-    type Output = Self;
-
+    /// What a length among the points was before.
     #[inline]
-    fn div(self, scale: Scale) -> Self {
-        self / scale.factor
+    pub(crate) fn length_back(self, length: f64) -> f64 {
+        length / self.factor
     }
-}
 
-/// A point among those that were multiplied.
-impl Div<Scale> for DVec3 {
-    type Output = Self;
-
+    /// Where a point was before.
     #[inline]
-    fn div(self, Scale { factor, common }: Scale) -> Self {
+    pub(crate) fn point_back(self, point: DVec3) -> DVec3 {
         // To add zero would lose the sign of -0.
-        Self::select(common.cmpeq(Self::ZERO), self / factor, common)
+        DVec3::select(self.common.cmpeq(DVec3::ZERO), point / self.factor, self.common)
     }
 }
 
@@ -95,7 +87,7 @@ mod tests {
         for size in [1e-300, 1e-70, 1e80, 1e300, f64::MAX] {
             let ([p, q], scale) = in_range([[size, 1.0, 0.0], [-size, 1.0, 0.0]]);
             assert!((1.0..=8.0).contains(&(p - q).x), "{size}: {p} {q}");
-            assert_eq!((p / scale).x, size);
+            assert_eq!(scale.point_back(p).x, size);
         }
         let ([p, q], _) = in_range([[5e-324, 0.0, 0.0], [0.0; 3]]);
         assert!(SIZES.contains(&(p - q).x));
@@ -110,8 +102,8 @@ mod tests {
                 let (points, scale) = in_range(given.map(|[x, y, z]| [x, y, z * size]));
                 assert!(points.iter().all(|p| p.is_finite()), "{shared}, {size}: {points:?}");
                 assert!((points[0] - points[2]).y > 0.0);
-                assert_eq!(points[0] / scale, DVec3::new(shared, size, 0.0));
-                assert_eq!((points[1] / scale).z.to_bits(), (-0.0_f64).to_bits());
+                assert_eq!(scale.point_back(points[0]), DVec3::new(shared, size, 0.0));
+                assert_eq!(scale.point_back(points[1]).z.to_bits(), (-0.0_f64).to_bits());
             }
         }
     }

@@ -137,10 +137,8 @@ impl Place {
         corners: Option<[[f64; 3]; 2]>,
     ) -> Result<Self, InstanceError> {
         let to_world = affine(&instance.to_world);
-        // Determinants of very large and very small matrices are out of range; powers of two change no digit.
-        let unit = inverse_power_of_two(largest(&to_world.matrix3));
-        let (scaled, scaled_inverse) =
-            (to_world.matrix3 * unit, (to_world.matrix3 * unit).inverse());
+        let (scaled, unit) = scaled(&to_world.matrix3);
+        let scaled_inverse = scaled.inverse();
         let inverse = scaled_inverse * unit;
         let to_object =
             DAffine3 { matrix3: inverse, translation: -(inverse * to_world.translation) };
@@ -180,15 +178,28 @@ impl Place {
     }
 }
 
+impl Instance {
+    /// The normal of a placed triangle on the side that is the front of the geometry's, of twice its area in length.
+    pub(super) fn normal(&self, [a, b, c]: [DVec3; 3]) -> DVec3 {
+        let matrix = affine(&self.to_world).matrix3;
+        let normal = (matrix * (b - a)).cross(matrix * (c - a));
+        // Mirrored, the triangle runs the other way around.
+        if scaled(&matrix).0.determinant() < 0.0 { -normal } else { normal }
+    }
+}
+
+/// The matrix times a power of two, which changes no digit, and that: determinants of very large and very small ones
+/// are out of range.
+fn scaled(matrix: &DMat3) -> (DMat3, f64) {
+    let largest = matrix.to_cols_array().iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
+    let unit = inverse_power_of_two(largest);
+    (*matrix * unit, unit)
+}
+
 /// The same matrix, by columns.
 fn affine(rows: &[[f64; 4]; 3]) -> DAffine3 {
     let column = |k: usize| DVec3::new(rows[0][k], rows[1][k], rows[2][k]);
     DAffine3::from_cols(column(0), column(1), column(2), column(3))
-}
-
-/// The largest component, in size.
-fn largest(matrix: &DMat3) -> f64 {
-    matrix.to_cols_array().iter().fold(0.0, |largest, x| largest.max(x.abs()))
 }
 
 /// At least the most that a matrix stretches any direction: Frobenius' norm.

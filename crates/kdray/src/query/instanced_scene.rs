@@ -196,9 +196,8 @@ impl<T: Precision> InstancedScene<T> {
     /// placed triangle in length.
     pub fn geometric_normal(&self, found: &InstanceHit) -> [f64; 3] {
         let mesh = self.parts.geometries[found.geometry_id as usize].mesh();
-        let normal = DVec3::from(mesh.geometric_normal(found.hit.primitive_id));
-        let to_object = self.parts.to_object[found.instance_id as usize].matrix3;
-        (to_object.transpose() * normal / to_object.determinant().abs()).into()
+        let corners = mesh.corners(found.hit.primitive_id).map(|p| DVec3::from(p.map(T::to_f64)));
+        self.parts.instances[found.instance_id as usize].normal(corners).into()
     }
 
     /// The leaves of the tree over the instances that a ray passes.

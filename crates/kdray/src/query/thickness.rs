@@ -72,6 +72,6 @@ impl<T: Precision> Scene<T> {
         let unit = self.mesh().tree_space().scale();
         let direction = if side == Side::Front { -normal } else { normal } / unit;
         let origin = a + (u * (b - a) + v * (c - a));
-        Some(Ray::new(origin / scale, direction))
+        Some(Ray::new(scale.point_back(origin), direction))
     }
 }
