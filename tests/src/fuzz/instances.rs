@@ -112,7 +112,7 @@ fn carried<T: Precision>(
 ) -> (Ray, bool) {
     let column = |k: usize| DVec3::from(instance.to_world.map(|row| row[k]));
     let to_world = DAffine3::from_cols(column(0), column(1), column(2), column(3));
-    let to_object = to_world.inverse();
+    let to_object = inverse(&to_world);
     let norm = |it: &DAffine3| {
         let [x, y, z] = [it.matrix3.x_axis, it.matrix3.y_axis, it.matrix3.z_axis];
         (x.length_squared() + y.length_squared() + z.length_squared()).sqrt()
@@ -127,6 +127,15 @@ fn carried<T: Precision>(
     let is_plain = |way: [f64; 3]| (1e-250..1e250).contains(&DVec3::from(way).abs().max_element());
     let is_near = begins.abs().max_element() <= reach;
     (carried, is_near && is_plain(ray.direction) && is_plain(carried.direction))
+}
+
+/// The inverse, by way of a matrix of ordinary size, whose determinant is in range.
+fn inverse(to_world: &DAffine3) -> DAffine3 {
+    let cells = to_world.matrix3.to_cols_array();
+    let largest = cells.iter().fold(f64::MIN_POSITIVE, |most, x| most.max(x.abs()));
+    let unit = 1.0 / f64::from_bits(largest.to_bits() & 0x7ff << 52);
+    let matrix3 = (to_world.matrix3 * unit).inverse() * unit;
+    DAffine3 { matrix3, translation: -(matrix3 * to_world.translation) }
 }
 
 /// The largest coordinate that counts: of an instance of a mesh in f32, and of all of the scene in f64.

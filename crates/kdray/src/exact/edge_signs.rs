@@ -176,12 +176,16 @@ mod tests {
             let sign = edge_function(&ray, p, q).sign();
             let component = |plane| crossed_component(d, p, q, plane).sign();
             let moved = component((1, 2)).then(component((2, 0))).then(component((0, 1)));
-            let usual = EdgeSigns::new(&ray, [p, q, q]);
-            let long = EdgeSigns { short: None, ..EdgeSigns::new(&ray, [p, q, q]) };
-            let longest = EdgeSigns { ray: &ray, corners: [p, q, q], short: None, long: OnceCell::from(None) };
-            for signs in [usual, long, longest] {
-                proptest::prop_assert_eq!(signs.sign(2), sign);
-                proptest::prop_assert_eq!(signs.moved_sign(2, Ordering::Equal), moved);
+            // Edge 2 of the first, 0 of the second, and 1 of the third.
+            for (i, corners) in [(2, [p, q, q]), (0, [o, p, q]), (1, [q, d, p])] {
+                let usual = EdgeSigns::new(&ray, corners);
+                let long = EdgeSigns { short: None, ..EdgeSigns::new(&ray, corners) };
+                let long_too = OnceCell::from(None);
+                let longest = EdgeSigns { ray: &ray, corners, short: None, long: long_too };
+                for signs in [usual, long, longest] {
+                    proptest::prop_assert_eq!(signs.sign(i), sign);
+                    proptest::prop_assert_eq!(signs.moved_sign(i, Ordering::Equal), moved);
+                }
             }
             let corners = [p, q, [q[1], p[0], o[2]]];
             if let Some(short) = short_volume(o, corners) {
