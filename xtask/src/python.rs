@@ -12,8 +12,9 @@ pub(crate) fn run(steps: &mut Steps) -> Result<(), String> {
     let home = target_folder().join("python");
     let packages = Path::new(CRATE).join("tests/requirements.txt");
     let python = venv::python(steps, &home.join("venv"), &packages)?;
-    // What the tests before compiled, but for its name.
-    steps.cargo("Python, compiled part", "build --workspace --lib --bins", &[])?;
+    // All but the package itself was compiled for the tests before. Examples are among what is named, because for them
+    // libraries have the features that the tests ask for; without, half of them would be compiled anew.
+    steps.cargo("Python, compiled part", "build --workspace --lib --examples", &[])?;
     let package = home.join("package");
     package::assemble(&package, "debug")?;
     let mut run = |what: &str, arguments: &[&str]| {
