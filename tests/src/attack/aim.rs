@@ -275,7 +275,7 @@ impl<'a, T: Precision> Gunner<'a, T> {
     }
 }
 
-/// Whether two rays in any directions from there cross the triangles an odd number of times.
+/// Whether two rays in any directions from there, which is not on a triangle, cross the triangles an odd number of times.
 pub(crate) fn is_inside<T: Coordinate>(
     flat: &Flat<T>,
     place: [f64; 3],
@@ -283,8 +283,11 @@ pub(crate) fn is_inside<T: Coordinate>(
 ) -> bool {
     let mut crosses = || {
         let direction = [0; 3].map(|_| random.random_range(-1.0..1.0));
-        let (least, most) = Truth::of(flat, &Ray::new(place, direction)).count(Interval::FORWARD);
-        least == most && least % 2 == 1
+        let truth = Truth::of(flat, &Ray::new(place, direction));
+        let (least, most) = truth.count(Interval::FORWARD);
+        // On the surface the number depends on where the ray goes.
+        let is_off_surface = truth.touched.iter().all(|hit| hit.t != 0.0);
+        is_off_surface && least == most && least % 2 == 1
     };
     crosses() && crosses()
 }
