@@ -119,19 +119,14 @@ pub fn moved_side_sign(ray: &Ray<2>, sign: Ordering) -> Ordering {
 mod tests {
     use super::*;
 
-    const RAY: Ray<3> = Ray {
-        origin: [0.0, 0.0, -1.0],
-        direction: [0.0, 0.0, 1.0],
-        interval: crate::Interval::FORWARD,
-    };
-
     #[test]
     fn an_edge_that_the_ray_meets_has_edge_function_zero() {
+        let ray = Ray::new([0.0, 0.0, -1.0], [0.0, 0.0, 1.0]);
         let (p, q) = ([-1.0, 0.0, 5.0], [1e17, 0.0, 3.0]);
-        assert_eq!(edge_function(&RAY, p, q).sign(), Ordering::Equal);
+        assert_eq!(edge_function(&ray, p, q).sign(), Ordering::Equal);
         let q = [1e17, f64::from_bits(1), 3.0];
-        assert_eq!(edge_function(&RAY, p, q).sign(), Ordering::Greater);
-        assert_eq!(edge_function(&RAY, q, p).sign(), Ordering::Less);
+        assert_eq!(edge_function(&ray, p, q).sign(), Ordering::Greater);
+        assert_eq!(edge_function(&ray, q, p).sign(), Ordering::Less);
     }
 
     #[test]

@@ -19,9 +19,9 @@ pub struct EdgeSigns<'a> {
 }
 
 /// A direction, and corners relative to the origin. Each may be times a positive number.
-struct Integers<I> {
-    direction: [I; 3],
-    corners: [[I; 3]; 3],
+pub(super) struct Integers<I> {
+    pub(super) direction: [I; 3],
+    pub(super) corners: [[I; 3]; 3],
 }
 
 impl<'a> EdgeSigns<'a> {
@@ -72,7 +72,7 @@ impl<'a> EdgeSigns<'a> {
     }
 
     fn long(&self) -> Option<&Integers<i128>> {
-        self.long.get_or_init(|| Integers::long(self.ray, self.corners)).as_ref()
+        self.long.get_or_init(|| Some(Integers::long(self.ray, self.corners)?.0)).as_ref()
     }
 }
 
@@ -89,11 +89,13 @@ impl Integers<i64> {
 }
 
 impl Integers<i128> {
-    /// The direction below 2^118, the corners below 2^119; `None` if sizes are too different.
-    fn long(ray: &Ray<3>, [a, b, c]: [[f64; 3]; 3]) -> Option<Self> {
-        let ([direction], _) = on_long_lattice([ray.direction])?;
-        let ([o, a, b, c], _) = on_long_lattice([ray.origin, a, b, c])?;
-        Some(Self { direction, corners: [a, b, c].map(|p| minus(p, o)) })
+    /// The direction below 2^118 and the corners below 2^119, with the powers of two of their units; `None` if sizes are
+    /// too different.
+    pub(super) fn long(ray: &Ray<3>, [a, b, c]: [[f64; 3]; 3]) -> Option<(Self, [i32; 2])> {
+        let ([direction], direction_unit) = on_long_lattice([ray.direction])?;
+        let ([o, a, b, c], unit) = on_long_lattice([ray.origin, a, b, c])?;
+        let corners = [a, b, c].map(|p| minus(p, o));
+        Some((Self { direction, corners }, [direction_unit, unit]))
     }
 }
 

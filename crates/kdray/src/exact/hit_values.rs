@@ -3,7 +3,8 @@
 use super::Scaled;
 use super::accumulator::Accumulator;
 use super::edge::{directed_edges, edge_function, short_volume, volume};
-use super::lattice::{minus, on_long_lattice, triple_product};
+use super::edge_signs::Integers;
+use super::lattice::triple_product;
 use crate::geometry::Ray;
 use std::cmp::Ordering;
 
@@ -20,14 +21,11 @@ pub fn hit_values(ray: &Ray<3>, corners: [[f64; 3]; 3]) -> Values {
 
 /// [`hit_values`], unless sizes are too different or out of the ordinary.
 fn in_short(ray: &Ray<3>, corners: [[f64; 3]; 3]) -> Option<Values> {
+    let (Integers { direction, corners }, [direction_unit, unit]) = Integers::long(ray, corners)?;
     let [a, b, c] = corners;
-    let ([d], direction_unit) = on_long_lattice([ray.direction])?;
-    let ([o, a, b, c], unit) = on_long_lattice([ray.origin, a, b, c])?;
-    let relative = [a, b, c].map(|p| minus(p, o));
-    let [a, b, c] = relative;
-    let edge = |(p, q)| triple_product(d, q, p, direction_unit + 2 * unit);
+    let edge = |(p, q)| triple_product(direction, q, p, direction_unit + 2 * unit);
     let volume = triple_product(a, c, b, 3 * unit);
-    Some(quotients(directed_edges(relative).map(edge), volume.value()))
+    Some(quotients(directed_edges(corners).map(edge), volume.value()))
 }
 
 /// t, where den is good by the filter and T is not.
