@@ -131,14 +131,16 @@ pub fn attack<T: Precision>(
     tally
 }
 
-/// Every instruction set says the same, to the last bit: those are what is printed.
+/// Every other instruction set says the same, to the last bit: those are what is printed.
 fn compare_sets<T: Precision>(
     tally: &mut Tally,
     scene: &Scene<T>,
     question: &Question,
     said: &Said,
 ) {
-    for set in InstructionSet::available() {
+    let others =
+        InstructionSet::available().into_iter().filter(|&set| set != InstructionSet::best());
+    for set in others {
         let other = Said::by(&scene.clone().with_instructions(set), question);
         if format!("{other:?}") != format!("{said:?}") {
             tally.misjudged += 1;
