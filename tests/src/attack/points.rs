@@ -7,6 +7,7 @@ use crate::flat::Flat;
 use crate::oracle::{exact_distance_squared, is_distance};
 use crate::points::beside;
 use crate::rays::Archer;
+use crate::sets::by_each_set;
 use kdray::primitives::Closure;
 use kdray::{ClosestPoint, Coordinate, InstructionSet, Precision, Scene, Side};
 use num_traits::Zero;
@@ -162,8 +163,8 @@ fn compare_batches<T: Precision>(
     let count = if is_long { LONG_BATCH } else { points.len().max(SHORT_BATCH) };
     let points: Vec<_> = points.iter().copied().cycle().take(count).collect();
     let alone: Vec<_> = alone.iter().copied().cycle().take(count).collect();
-    for set in InstructionSet::available() {
-        compare_batch(tally, &scene.clone().with_instructions(set), &points, &alone);
+    for scene in by_each_set(scene) {
+        compare_batch(tally, &scene, &points, &alone);
     }
 }
 
