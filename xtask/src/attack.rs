@@ -19,12 +19,15 @@ pub(crate) struct Options {
     /// Only targets whose names contain one of these, separated by commas.
     #[arg(long)]
     targets: Option<String>,
+    /// Only targets of f32 or of f64 vertices.
+    #[arg(long, value_parser = ["f32", "f64"])]
+    precision: Option<String>,
     /// Only targets that are made by code, and 20,000 rays.
     #[arg(long)]
     quick: bool,
     /// Instead ask Embree, Open3D, trimesh and other crates, too, about the same rays at closed meshes: 10,000
     /// hard ones and as many ordinary ones at each, or --rays. Fetches packages from PyPI.
-    #[arg(long, conflicts_with_all = ["minutes", "targets", "quick"])]
+    #[arg(long, conflicts_with_all = ["minutes", "targets", "precision", "quick"])]
     peers: bool,
 }
 
@@ -42,6 +45,7 @@ pub(crate) fn run(options: &Options) -> Result<(), String> {
         option("--minutes", minutes.as_ref()),
         option("--seed", seed.as_ref()),
         option("--targets", options.targets.as_ref()),
+        option("--precision", options.precision.as_ref()),
     ]
     .concat();
     given.extend(options.quick.then(|| "--quick".to_owned()));

@@ -80,6 +80,14 @@ impl AnyTarget {
         }
     }
 
+    /// Of what its vertices are: `f32` or `f64`.
+    pub fn precision(&self) -> &'static str {
+        match self {
+            Self::Single(_) => "f32",
+            Self::Double(_) => "f64",
+        }
+    }
+
     /// How many triangles it has.
     pub fn triangles(&self) -> usize {
         match self {
