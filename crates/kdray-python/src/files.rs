@@ -1,16 +1,17 @@
 //! Mesh files and tree files.
 
-use crate::error::{FileError, SceneError, argument};
+use crate::error::{FileError, MissingFileError, SceneError, argument};
 use crate::job::Job;
 use crate::mesh::{AnyMesh, Mesh, refused};
 use crate::points::for_points;
 use crate::tree::{Kind, Places, Tree};
 use kdray::TriangleMesh;
 use kdray::file::{AnyScene, HEADER_BYTES, file_bytes};
-use kdray_scene::{LoadOptions, Model};
+use kdray_file::TreeFileError;
+use kdray_scene::{LoadError, LoadOptions, Model};
 use pyo3::{PyErr, PyResult, Python, pyclass, pyfunction};
 use std::fs::File;
-use std::io::Read;
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -43,7 +44,7 @@ pub(crate) fn read_mesh(
 #[pyfunction]
 pub(crate) fn is_tree_file(py: Python<'_>, path: PathBuf) -> PyResult<bool> {
     let asked = py.detach(|| kdray_file::is_tree_file(&path));
-    asked.map_err(|error| unreadable(format!("{}: {error}", path.display())))
+    asked.map_err(|source| unreadable(TreeFileError::Io { path, source }))
 }
 
 /// Writes a scene of one geometry to a file.
@@ -83,9 +84,10 @@ pub(crate) fn map_tree(py: Python<'_>, path: PathBuf) -> PyResult<Tree> {
 #[pyfunction]
 pub(crate) fn file_hash(py: Python<'_>, path: PathBuf) -> PyResult<String> {
     py.detach(|| {
-        let header = read_header(&path).map_err(|error| format!("{}: {error}", path.display()));
-        let header = header.map_err(unreadable)?;
-        hash(&header).map_err(|error| unreadable(format!("{}: {error}", path.display())))
+        let header = read_header(&path);
+        let header = header
+            .map_err(|source| unreadable(TreeFileError::Io { path: path.clone(), source }))?;
+        hash(&header).map_err(|source| unreadable(TreeFileError::File { path, source }))
     })
 }
 
@@ -95,7 +97,8 @@ pub(crate) fn tree_hash(py: Python<'_>, tree: &Tree) -> PyResult<String> {
     for_points!(tree, scene => {
         // Only the header is wanted.
         let header = py.detach(|| scene.save(|bytes| Err(bytes.to_vec())));
-        hash(&header.err().unwrap_or_default()).map_err(|error| unreadable(error.to_string()))
+        let header = header.err().unwrap_or_default();
+        hash(&header).map_err(|error| FileError::new_err(error.to_string()))
     })
 }
 
@@ -121,6 +124,34 @@ fn hash(header: &[u8]) -> Result<String, kdray::FileError> {
     Ok(format!("{:016x}", u64::from_le_bytes(checksum)))
 }
 
-fn unreadable(error: impl ToString) -> PyErr {
-    FileError::new_err(error.to_string())
+/// An error about a file.
+trait AboutFile: ToString {
+    /// What the system says about the file itself, if it was the system that refused.
+    fn of_system(&self) -> Option<io::ErrorKind>;
+}
+
+impl AboutFile for LoadError {
+    fn of_system(&self) -> Option<io::ErrorKind> {
+        match self {
+            Self::Io { error, .. } => Some(error.kind()),
+            _ => None,
+        }
+    }
+}
+
+impl AboutFile for TreeFileError {
+    fn of_system(&self) -> Option<io::ErrorKind> {
+        match self {
+            Self::Io { source, .. } => Some(source.kind()),
+            _ => None,
+        }
+    }
+}
+
+/// That a file cannot be read or written.
+fn unreadable(error: impl AboutFile) -> PyErr {
+    match error.of_system() {
+        Some(io::ErrorKind::NotFound) => MissingFileError::new_err(error.to_string()),
+        _ => FileError::new_err(error.to_string()),
+    }
 }

@@ -88,8 +88,8 @@ def test_a_mapped_file_may_be_deleted_or_replaced(saved):
     path.unlink()
     same_answers(mapped, scene)
     for open_it in (kdray.Scene.mmap, kdray.Scene.load, kdray.Scene.of):
-        fails(kdray.FileError, str(path), open_it, path)
-    with pytest.raises(OSError):
+        fails(kdray.MissingFileError, str(path), open_it, path)
+    with pytest.raises(FileNotFoundError):
         kdray.Scene.mmap(path)
 
 
@@ -120,7 +120,7 @@ def test_what_cannot_be_saved(cube, tmp_path):
         copies.save(tmp_path / "copies.kdray")
     assert not list(tmp_path.iterdir())
     missing = tmp_path / "no" / "folder.kdray"
-    fails(kdray.FileError, str(missing), kdray.Scene(CUBE_VERTICES, CUBE_FACES).save, missing)
+    fails(kdray.MissingFileError, str(missing), kdray.Scene(CUBE_VERTICES, CUBE_FACES).save, missing)
 
 
 def test_mesh_files(tmp_path):
@@ -135,7 +135,7 @@ def test_mesh_files(tmp_path):
 
 def test_bad_mesh_files(tmp_path):
     missing = tmp_path / "none.ply"
-    fails(kdray.FileError, str(missing), kdray.Scene.of, missing)
+    fails(kdray.MissingFileError, str(missing), kdray.Scene.of, missing)
     (tmp_path / "what").write_bytes(b"nothing known")
     fails(kdray.FileError, str(tmp_path / "what"), kdray.Scene.of, tmp_path / "what")
     holed = write_obj(tmp_path / "holed.obj", faces=np.vstack([CUBE_FACES, [[0, 1, 99]]]))

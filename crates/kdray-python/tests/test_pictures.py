@@ -84,7 +84,7 @@ def test_parts_are_arrays_only(cube, tmp_path):
     assert (tmp_path / "a.exr").read_bytes()[:4] == b"\x76\x2f\x31\x01"
     fails(kdray.ArgumentError, "path", picture.save, tmp_path / "a.jpg")
     fails(kdray.ArgumentError, "bits", picture.save, tmp_path / "a.png", bits=9)
-    fails(kdray.FileError, str(tmp_path / "no" / "a.png"), picture.save, tmp_path / "no" / "a.png")
+    fails(kdray.MissingFileError, str(tmp_path / "no" / "a.png"), picture.save, tmp_path / "no" / "a.png")
 
 
 def test_materials_of_a_file(tmp_path):

@@ -15,6 +15,7 @@ from .errors import (
     FileError,
     InternalError,
     KdrayError,
+    MissingFileError,
     SceneError,
     UnsupportedError,
 )
@@ -32,6 +33,7 @@ __all__ = [
     "FileError",
     "InternalError",
     "KdrayError",
+    "MissingFileError",
     "Picture",
     "Scene",
     "SceneError",

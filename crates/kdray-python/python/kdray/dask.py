@@ -29,7 +29,7 @@ from dask.base import tokenize
 from numpy.typing import DTypeLike, NDArray
 
 from . import _kdray
-from .errors import ArgumentError, FileError
+from .errors import ArgumentError, FileError, about_file
 from .hits import Hits
 from .saved import path_of
 from .scene import Scene
@@ -246,7 +246,7 @@ def _hash_of(path: str) -> str:
         with open(path, "rb") as file:
             return blake2b(file.read()).hexdigest()
     except OSError as error:
-        raise FileError(f"{path}: {error.strerror}") from error
+        raise about_file(path, error) from error
 
 
 _OPENED: dict[tuple[str, str], Scene] = {}

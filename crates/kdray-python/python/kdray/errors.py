@@ -7,6 +7,7 @@ __all__ = [
     "FileError",
     "InternalError",
     "KdrayError",
+    "MissingFileError",
     "SceneError",
     "UnsupportedError",
 ]
@@ -38,6 +39,16 @@ class UnsupportedError(KdrayError, NotImplementedError):
 
 class FileError(KdrayError, OSError):
     """A file is not there any more, has changed, or is none that can be used."""
+
+
+class MissingFileError(FileError, FileNotFoundError):
+    """A file is not there, or the folder that it is to be written to."""
+
+
+def about_file(path: str, error: OSError) -> FileError:
+    """What the system says about a file, as an error of kdray."""
+    kind = MissingFileError if isinstance(error, FileNotFoundError) else FileError
+    return kind(f"{path}: {error.strerror}")
 
 
 class InternalError(KdrayError, RuntimeError):

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _kdray
-from .errors import ArgumentError, FileError
+from .errors import ArgumentError, about_file
 from .saved import path_of
 
 
@@ -62,7 +62,7 @@ class Picture(np.ndarray[Any, np.dtype[np.uint8]]):
             with open(text, "wb") as file:
                 file.write(content)
         except OSError as error:
-            raise FileError(f"{text}: {error.strerror}") from error
+            raise about_file(text, error) from error
 
     def _repr_png_(self) -> Optional[bytes]:
         """What notebooks show."""
