@@ -5,7 +5,7 @@ use crate::error::BenchError;
 use crate::synthetic;
 use glam::DVec3;
 use kdray::{Aabb, TriangleMesh};
-use kdray_render::frame;
+use kdray_render::{Y_UP, frame};
 use kdray_scene::{Camera, LoadOptions, Projection, load};
 use serde::Deserialize;
 use std::fs;
@@ -154,7 +154,8 @@ fn from_file(path: &Path, view: &ViewArgs) -> Result<BenchScene, BenchError> {
     let cameras = model.cameras;
     let mesh = TriangleMesh::new(model.vertices, model.triangles)?;
     let bounds = bounds(&mesh);
-    let mut camera = cameras.into_iter().next().unwrap_or_else(|| frame(&bounds, 1.0));
+    let mut camera =
+        cameras.into_iter().next().unwrap_or_else(|| frame(&bounds, view.up.unwrap_or(Y_UP), 1.0));
     camera.eye = view.eye.unwrap_or(camera.eye);
     camera.look_at = view.look_at.unwrap_or(camera.look_at);
     camera.up = view.up.unwrap_or(camera.up);

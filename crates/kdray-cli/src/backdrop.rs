@@ -27,7 +27,13 @@ impl Backdrop<'_> {
     pub(crate) fn render(&self, out: &Path, globals: &Globals) -> Result<Vec<u8>, CliError> {
         let Self { world, camera, view, size: Size { width, height }, samples } = *self;
         let lights = view.lights(world.model(), world.scene().tree().bounds());
-        let options = RenderOptions { width, height, samples, ..RenderOptions::default() };
+        let options = RenderOptions {
+            width,
+            height,
+            samples,
+            background: view.sky(),
+            ..RenderOptions::default()
+        };
         let progress = Progress::start("rendering", (width * height) as u64, "pixels", globals);
         let _watch = interrupt::watch();
         let render =

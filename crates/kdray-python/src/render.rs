@@ -6,7 +6,7 @@ use crate::job::{Control, Job};
 use crate::picture::Picture;
 use crate::tree::{Kind, Tree};
 use kdray_render::{Background, CameraError, Crop, PictureKind, RenderError, RenderOptions};
-use kdray_render::{RenderProgress, frame, point_light_for, render_with_progress};
+use kdray_render::{RenderProgress, Y_UP, frame, point_light_for, render_with_progress};
 use kdray_scene::{Camera, Light, Model, Projection};
 use pyo3::{FromPyObject, Py, PyAny, PyErr, PyResult, Python, pyclass, pyfunction, pymethods};
 use std::ops::ControlFlow;
@@ -102,6 +102,7 @@ fn follow(control: &Control, pixels: f64) -> ControlFlow<()> {
 
 fn options(view: &View, quality: &Quality) -> PyResult<RenderOptions> {
     let default = RenderOptions::default();
+    let sky = || Background::sky(view.up.unwrap_or(Y_UP));
     Ok(RenderOptions {
         width: view.width,
         height: view.height,
@@ -111,7 +112,7 @@ fn options(view: &View, quality: &Quality) -> PyResult<RenderOptions> {
         packets: quality.packets,
         all_layers: quality.layers,
         seed: quality.seed,
-        background: quality.background.map_or(default.background, Background::Color),
+        background: quality.background.map_or_else(sky, Background::Color),
         ambient: quality.ambient.unwrap_or(default.ambient),
         ambient_rays: quality.ambient_rays,
         occlusion_distance: quality.occlusion_distance,
@@ -149,7 +150,10 @@ fn camera(view: &View, world: &kdray_render::World) -> PyResult<Camera> {
     let cameras = &world.model().cameras;
     let aspect = view.width as f64 / view.height.max(1) as f64;
     let mut camera = match &view.camera {
-        None => cameras.first().cloned().unwrap_or_else(|| frame(world.bounds(), aspect)),
+        None => cameras
+            .first()
+            .cloned()
+            .unwrap_or_else(|| frame(world.bounds(), view.up.unwrap_or(Y_UP), aspect)),
         Some(name) => {
             let by_name = cameras.iter().find(|camera| camera.name == *name);
             let found = by_name.or_else(|| cameras.get(name.parse::<usize>().ok()?));

@@ -1,10 +1,14 @@
 //! From a pixel to a ray, and a camera for scenes without one.
 
-use glam::DVec3;
+use glam::{DMat3, DQuat, DVec3};
 use kdray::geometry::Common;
 use kdray::{Aabb, Ray};
 use kdray_scene::{Camera, Projection};
+use std::f64::consts::PI;
 use thiserror::Error;
+
+/// The y axis, which is up where nothing else is said.
+pub const Y_UP: [f64; 3] = [0.0, 1.0, 0.0];
 
 /// The angle between the lower and the upper edge of a framed picture, in degrees.
 const FRAME_VFOV_DEGREES: f64 = 40.0;
@@ -108,25 +112,27 @@ fn half_height(projection: Projection) -> Result<f64, CameraError> {
     }
 }
 
-/// A camera that shows everything in `bounds`: from the front, right and above (+y is up), just
-/// far enough that the box's corners are in a picture `aspect` times as wide as high. An empty box
-/// is taken for the unit cube around the origin.
-pub fn frame(bounds: &Aabb<3>, aspect: f64) -> Camera {
+/// A camera that shows everything in `bounds`: from the front, right and above, just far enough that the
+/// box's corners are in a picture `aspect` times as wide as high. An empty box is taken for the unit cube
+/// around the origin. Above is where `up` points, any vector: [`Y_UP`], where +x is right and +z in front, or
+/// else turned from there the shortest way; with z up, -y is in front.
+pub fn frame(bounds: &Aabb<3>, up: [f64; 3], aspect: f64) -> Camera {
     let (center, half) = if bounds.is_empty() {
         (DVec3::ZERO, DVec3::splat(0.5))
     } else {
         (DVec3::from(bounds.center()), DVec3::from(bounds.extent()) / 2.0)
     };
-    let backward = DVec3::new(0.55, 0.42, 1.0).normalize();
-    let right = DVec3::Y.cross(backward).normalize();
-    let up = backward.cross(right);
+    let turned = turn_from_y(up);
+    let backward = turned * DVec3::new(0.55, 0.42, 1.0).normalize();
+    let right = (turned * DVec3::Y).cross(backward).normalize();
+    let upward = backward.cross(right);
     let tan_y = (FRAME_VFOV_DEGREES.to_radians() / 2.0).tan() * FRAME_FILL;
     let tan_x = tan_y * if aspect.is_finite() && aspect > 0.0 { aspect } else { 1.0 };
     let mut distance = 0.0_f64;
     for corner in 0..8 {
         let sign = |bit: i32| if corner & bit == 0 { -1.0 } else { 1.0 };
         let corner = half * DVec3::new(sign(1), sign(2), sign(4));
-        let reach = (corner.dot(right).abs() / tan_x).max(corner.dot(up).abs() / tan_y);
+        let reach = (corner.dot(right).abs() / tan_x).max(corner.dot(upward).abs() / tan_y);
         distance = distance.max(corner.dot(backward) + reach);
     }
     // A single point has no size: look at it from the nearest distance that f64 can tell apart.
@@ -135,7 +141,16 @@ pub fn frame(bounds: &Aabb<3>, aspect: f64) -> Camera {
         name: "frame".into(),
         eye: (center + backward * distance).into(),
         look_at: center.into(),
-        up: DVec3::Y.into(),
+        up,
         projection: Projection::Perspective { vfov_degrees: FRAME_VFOV_DEGREES },
+    }
+}
+
+/// The rotation that takes the y axis to `up` the shortest way; none for a vector without direction.
+fn turn_from_y(up: [f64; 3]) -> DMat3 {
+    match DVec3::from(up).try_normalize() {
+        Some(up) if up == DVec3::NEG_Y => DMat3::from_rotation_x(PI),
+        Some(up) => DMat3::from_quat(DQuat::from_rotation_arc(DVec3::Y, up)),
+        None => DMat3::IDENTITY,
     }
 }

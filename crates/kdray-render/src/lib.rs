@@ -25,7 +25,7 @@ mod tiles;
 mod work;
 mod world;
 
-pub use camera::{CameraError, View, frame};
+pub use camera::{CameraError, View, Y_UP, frame};
 pub use light::{LightError, default_lights, point_light_for};
 pub use merge::{Merge, MergeError};
 pub use options::{Background, PictureKind, RenderOptions};

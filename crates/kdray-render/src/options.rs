@@ -1,5 +1,6 @@
 //! What to render, and how well.
 
+use crate::camera::Y_UP;
 use crate::part::Crop;
 use glam::{DVec3, Vec3};
 use std::ops::Range;
@@ -40,12 +41,14 @@ pub enum PictureKind {
 pub enum Background {
     /// One colour everywhere.
     Color([f32; 3]),
-    /// A sky: `horizon` below and at the horizon, blending to `zenith` overhead (+y).
+    /// A sky: `horizon` below and at the horizon, blending to `zenith` overhead.
     Gradient {
-        /// The colour of directions with y ≤ 0.
+        /// The colour of directions that do not point upward.
         horizon: [f32; 3],
-        /// The colour of +y.
+        /// The colour of `up`.
         zenith: [f32; 3],
+        /// Where overhead is, of any length: [`Y_UP`](crate::Y_UP), or else what is up in the scene.
+        up: [f64; 3],
     },
 }
 
@@ -130,17 +133,23 @@ impl RenderOptions {
 
 impl Default for Background {
     fn default() -> Self {
-        Self::Gradient { horizon: [0.82, 0.88, 0.95], zenith: [0.14, 0.3, 0.68] }
+        Self::sky(Y_UP)
     }
 }
 
 impl Background {
+    /// A blue sky, which is deepest where `up` points.
+    pub fn sky(up: [f64; 3]) -> Self {
+        Self::Gradient { horizon: [0.82, 0.88, 0.95], zenith: [0.14, 0.3, 0.68], up }
+    }
+
     /// The radiance that arrives against the unit vector `direction`.
     pub(crate) fn radiance(&self, direction: DVec3) -> Vec3 {
         match *self {
             Self::Color(color) => color.into(),
-            Self::Gradient { horizon, zenith } => {
-                let height = direction.y.clamp(0.0, 1.0).sqrt() as f32;
+            Self::Gradient { horizon, zenith, up } => {
+                let upward = direction.dot(DVec3::from(up).normalize_or_zero());
+                let height = upward.clamp(0.0, 1.0).sqrt() as f32;
                 Vec3::from(horizon).lerp(zenith.into(), height)
             }
         }

@@ -4,13 +4,14 @@ use crate::camera::{CameraError, View};
 use crate::film::{Film, MAX_PICTURE_BYTES};
 use crate::fingerprint;
 use crate::light::{Lamp, LightError, default_lights};
-use crate::options::{MAX_SAMPLES, RenderOptions};
+use crate::options::{Background, MAX_SAMPLES, RenderOptions};
 use crate::part::Crop;
 use crate::picture::Picture;
 use crate::tile::TileTracer;
 use crate::tiles::Tiles;
 use crate::work::{RenderProgress, Work};
 use crate::world::World;
+use glam::DVec3;
 use kdray_scene::{Camera, Light};
 use rayon::prelude::*;
 use std::ops::{ControlFlow, Range};
@@ -81,7 +82,7 @@ pub enum RenderError {
 /// Renders `world` as `camera` sees it by `lights`, or by [`default_lights`] if there are none.
 ///
 /// ```
-/// use kdray_render::{PngDepth, RenderOptions, World, frame, render};
+/// use kdray_render::{PngDepth, RenderOptions, World, Y_UP, frame, render};
 /// use kdray_scene::Model;
 /// let model = Model {
 ///     vertices: vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
@@ -90,7 +91,7 @@ pub enum RenderError {
 /// };
 /// let world = World::new(model, &kdray::BuildOptions::default())?;
 /// let options = RenderOptions { width: 24, height: 16, samples: 1, ..RenderOptions::default() };
-/// let picture = render(&world, &frame(world.bounds(), 1.5), &[], &options)?;
+/// let picture = render(&world, &frame(world.bounds(), Y_UP, 1.5), &[], &options)?;
 /// let mut png = Vec::new();
 /// picture.write_png(&mut png, PngDepth::Eight)?;
 /// assert!(png.starts_with(b"\x89PNG"));
@@ -129,8 +130,8 @@ pub fn render_with_progress(
     if width == 0 || height == 0 {
         return Err(RenderError::EmptyPicture { width, height });
     }
-    check(options)?;
     let view = View::new(camera, width as f64 / height as f64)?;
+    check(options)?;
     let lamps = if lights.is_empty() {
         Lamp::all(&default_lights(camera, world.bounds()))
     } else {
@@ -178,6 +179,16 @@ fn check_part(options: &RenderOptions) -> Result<(), RenderError> {
     }
 }
 
+fn check_sky(background: &Background) -> Result<(), RenderError> {
+    match background {
+        Background::Gradient { up, .. } if DVec3::from(*up).try_normalize().is_none() => {
+            let (option, must) = ("background", "a sky whose `up` has a direction");
+            Err(RenderError::Option { option, must })
+        }
+        _ => Ok(()),
+    }
+}
+
 fn check(options: &RenderOptions) -> Result<(), RenderError> {
     let in_range = |option, value: u32, range: Range<u32>, must| {
         if range.contains(&value) { Ok(()) } else { Err(RenderError::Option { option, must }) }
@@ -193,6 +204,7 @@ fn check(options: &RenderOptions) -> Result<(), RenderError> {
         if good { Ok(()) } else { Err(RenderError::Option { option, must }) }
     };
     positive("exposure", options.exposure.into())?;
+    check_sky(&options.background)?;
     options.occlusion_distance.map_or(Ok(()), |d| positive("occlusion_distance", d))?;
     options.heat_max.map_or(Ok(()), |max| positive("heat_max", max.into()))
 }

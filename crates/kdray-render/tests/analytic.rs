@@ -4,7 +4,7 @@
 
 mod support;
 
-use kdray_render::{Background, RenderOptions};
+use kdray_render::{Background, RenderOptions, Y_UP};
 use kdray_scene::{AlphaMode, Light, Material, Model};
 use std::f64::consts::PI;
 use support::*;
@@ -88,7 +88,8 @@ fn in_a_furnace_glass_cannot_be_seen() {
 }
 
 /// Black below and at the sides, white straight above.
-const WHITE_ABOVE: Background = Background::Gradient { horizon: [0.0; 3], zenith: [1.0; 3] };
+const WHITE_ABOVE: Background =
+    Background::Gradient { horizon: [0.0; 3], zenith: [1.0; 3], up: Y_UP };
 
 #[test]
 fn a_pane_reflects_as_fresnel_says() {

@@ -6,8 +6,8 @@ mod support;
 
 use kdray::{BuildOptions, InstructionSet, Strategy};
 use kdray_render::{
-    CameraError, LightError, Picture, PictureKind, PngDepth, RenderError, RenderOptions,
-    WorldError, render_with_progress,
+    Background, CameraError, LightError, Picture, PictureKind, PngDepth, RenderError,
+    RenderOptions, WorldError, Y_UP, render_with_progress,
 };
 use kdray_scene::{Camera, Light, Model, Projection};
 use std::path::Path;
@@ -156,7 +156,7 @@ fn a_scene_without_lights_or_camera_is_seen() {
     let mut model = Model { materials: vec![lambert(0.8)], ..Model::default() };
     add_box(&mut model, [100.0, 7.0, -3.0], [101.0, 9.0, 2.0], 0);
     let world = world(model);
-    let camera = kdray_render::frame(world.bounds(), 2.0);
+    let camera = kdray_render::frame(world.bounds(), Y_UP, 2.0);
     let options = RenderOptions { width: 64, height: 32, ..plain(64, 32, 1) };
     let picture = shoot(&world, &camera, &[], &options);
     let red = picture.floats("color", "R").unwrap();
@@ -212,10 +212,15 @@ fn what_cannot_be_rendered_is_refused() {
     assert_eq!(refused(&blind, &lights, &options), CameraError::NotFinite.into());
     let bad = Light::Directional { direction: [0.0; 3], irradiance: [1.0; 3] };
     assert_eq!(refused(&camera, &[bad], &options), LightError::ZeroDirection(0).into());
-    let none = RenderOptions { samples: 0, ..options };
+    let none = RenderOptions { samples: 0, ..options.clone() };
     assert!(matches!(
         refused(&camera, &lights, &none),
         RenderError::Option { option: "samples", .. }
+    ));
+    let nowhere = RenderOptions { background: Background::sky([0.0; 3]), ..options };
+    assert!(matches!(
+        refused(&camera, &lights, &nowhere),
+        RenderError::Option { option: "background", .. }
     ));
 }
 
@@ -247,7 +252,7 @@ fn models_that_contradict_themselves_are_refused() {
 #[test]
 fn an_empty_scene_shows_the_background() {
     let world = world(Model::default());
-    let camera = kdray_render::frame(world.bounds(), 1.0);
+    let camera = kdray_render::frame(world.bounds(), Y_UP, 1.0);
     let options = RenderOptions { all_layers: true, ..small(PictureKind::Shaded) };
     let picture = shoot(&world, &camera, &[], &options);
     assert!(picture.complete);

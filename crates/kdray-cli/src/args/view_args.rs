@@ -3,7 +3,7 @@
 use super::{Size, numbers};
 use crate::error::CliError;
 use kdray::Aabb;
-use kdray_render::{frame, point_light_for};
+use kdray_render::{Background, Y_UP, frame, point_light_for};
 use kdray_scene::{Camera, Light, Model, Projection};
 
 /// From where the scene is seen, and how large the picture is.
@@ -19,7 +19,8 @@ pub(crate) struct ViewArgs {
     /// The point in the middle of the picture
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = numbers::<3>)]
     pub(crate) look_at: Option<[f64; 3]>,
-    /// What points up in the picture; without it the camera's, or the y axis
+    /// What points up in the picture, and to the middle of the sky; without it the camera's, and the
+    /// y axis
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = numbers::<3>)]
     pub(crate) up: Option<[f64; 3]>,
     /// The angle between the lower and the upper edge of the picture, below 180; without it the
@@ -47,7 +48,7 @@ impl ViewArgs {
             Some(name) => named_camera(model, name)?.clone(),
             None => match model.cameras.first() {
                 Some(camera) => camera.clone(),
-                None => frame(bounds, self.aspect()),
+                None => frame(bounds, self.up.unwrap_or(Y_UP), self.aspect()),
             },
         };
         camera.eye = self.eye.unwrap_or(camera.eye);
@@ -57,6 +58,11 @@ impl ViewArgs {
             camera.projection = Projection::Perspective { vfov_degrees };
         }
         Ok(camera)
+    }
+
+    /// The sky over the scene.
+    pub(crate) fn sky(&self) -> Background {
+        Background::sky(self.up.unwrap_or(Y_UP))
     }
 
     /// The scene's lights and those of the arguments.

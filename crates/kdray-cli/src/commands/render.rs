@@ -243,7 +243,7 @@ fn options(args: &Args) -> RenderOptions {
         packets: !quality.no_packets,
         all_layers: quality.layers,
         seed: quality.seed,
-        background: quality.background.map_or(default.background, Background::Color),
+        background: quality.background.map_or_else(|| args.view.sky(), Background::Color),
         ambient: quality.ambient.unwrap_or(default.ambient),
         ambient_rays: quality.ambient_rays,
         occlusion_distance: quality.occlusion_distance.or(default.occlusion_distance),

@@ -68,7 +68,8 @@ class Rendering:
 
         ``eye``, ``look_at``, ``up``, ``fov``
             The observer, the point in the middle, what points up, and the angle between the lower and the upper edge
-            in degrees; without them the file's first camera, or one that frames the scene.
+            in degrees; without them the file's first camera, or one that frames the scene. Where ``up`` points, the
+            sky has its middle.
         ``camera``
             A camera of the file, by its name or its number.
         ``light``

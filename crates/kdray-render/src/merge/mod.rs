@@ -18,7 +18,7 @@ use seen::Seen;
 /// normal, id) are the same in each of these parts, or there is an error.
 ///
 /// ```
-/// use kdray_render::{Crop, Merge, RenderOptions, World, frame, render};
+/// use kdray_render::{Crop, Merge, RenderOptions, World, Y_UP, frame, render};
 /// use kdray_scene::Model;
 /// let model = Model {
 ///     vertices: vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
@@ -26,7 +26,7 @@ use seen::Seen;
 ///     ..Model::default()
 /// };
 /// let world = World::new(model, &kdray::BuildOptions::default())?;
-/// let camera = frame(world.bounds(), 1.5);
+/// let camera = frame(world.bounds(), Y_UP, 1.5);
 /// let whole = RenderOptions { width: 24, height: 16, samples: 2, ..RenderOptions::default() };
 /// let mut merge = Merge::default();
 /// for x in [0, 12] {

@@ -3,7 +3,7 @@
 
 use kdray::{Aabb, BuildOptions};
 use kdray_render::{
-    Background, Picture, PictureKind, PngDepth, RenderOptions, World, frame, render,
+    Background, Picture, PictureKind, PngDepth, RenderOptions, World, Y_UP, frame, render,
 };
 use kdray_scene::{Camera, Light, Material, Model, Projection, Texture, TextureRef, Wrap};
 
@@ -213,5 +213,5 @@ pub(crate) fn still_life_in(options: &BuildOptions) -> (World, Camera, Vec<Light
         },
     ];
     let bounds = Aabb { min: [-2.4, 0.0, -1.4], max: [2.4, 2.0, 1.9] };
-    (World::new(model, options).unwrap(), frame(&bounds, 4.0 / 3.0), lights)
+    (World::new(model, options).unwrap(), frame(&bounds, Y_UP, 4.0 / 3.0), lights)
 }
