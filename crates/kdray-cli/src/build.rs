@@ -1,6 +1,6 @@
 //! Building a tree with progress and Ctrl-C.
 
-use crate::{cli::Globals, error::CliError, interrupt, progress::Progress};
+use crate::{cli::Globals, error::CliError, interrupt, progress::Progress, wording::counted};
 use kdray::{BuildOptions, BuildProgress, Scene, ShapeScene, TriangleMesh};
 use kdray_render::World;
 use kdray_scene::Model;
@@ -56,6 +56,7 @@ fn step(progress: &Progress, done: BuildProgress) -> ControlFlow<()> {
 }
 
 fn finish(progress: Progress, shapes: &ShapeScene) {
-    let (nodes, took) = (shapes.tree().nodes().len(), progress.elapsed());
-    progress.finish(&format!("built a tree of {nodes} nodes in {took:.2?}"));
+    let took = progress.elapsed();
+    let nodes = counted(shapes.tree().nodes().len(), "node", "nodes");
+    progress.finish(&format!("built a tree of {nodes} in {took:.2?}"));
 }

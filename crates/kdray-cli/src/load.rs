@@ -6,6 +6,7 @@ use crate::{
     error::CliError,
     progress::{self, Progress},
     tree_file,
+    wording::counted,
 };
 use kdray::TriangleMesh;
 use kdray_scene::{LoadOptions, Model, built_in};
@@ -24,8 +25,9 @@ pub(crate) fn model(args: &SceneArgs, globals: &Globals) -> Result<Model, CliErr
         Some(path) if path == Path::new("-") => from_stdin(args)?,
         Some(path) => kdray_scene::load(path, &options(args, LoadOptions::default().max_bytes))?,
     };
-    let (triangles, took) = (model.triangles.len(), progress.elapsed());
-    progress.finish(&format!("read {triangles} triangles of {name} in {took:.2?}"));
+    let took = progress.elapsed();
+    let triangles = counted(model.triangles.len(), "triangle", "triangles");
+    progress.finish(&format!("read {triangles} of {name} in {took:.2?}"));
     for warning in &model.warnings {
         progress::say(globals, &format!("warning: {warning}"));
     }

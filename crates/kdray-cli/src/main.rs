@@ -17,6 +17,7 @@ mod progress;
 mod query;
 mod table;
 mod tree_file;
+mod wording;
 
 use std::process::ExitCode;
 

@@ -8,10 +8,10 @@ use crate::{
     error::CliError,
     load,
     pictures::{
-        LineColor, PictureFile, Section, Slice, Wireframe, draw_slice, draw_wireframe, readable,
-        scene_name,
+        LineColor, PictureFile, Section, Slice, Wireframe, draw_slice, draw_wireframe, scene_name,
     },
     progress,
+    wording::readable,
 };
 use kdray_render::World;
 use std::path::{Path, PathBuf};

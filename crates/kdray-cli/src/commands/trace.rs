@@ -11,9 +11,10 @@ use crate::{
     cli::Globals,
     error::CliError,
     load, output,
-    pictures::{PictureFile, RayPath, draw_ray_path, readable, scene_name},
+    pictures::{PictureFile, RayPath, draw_ray_path, scene_name},
     progress,
     table::print_json,
+    wording::readable,
 };
 use kdray::{Ray, traverse::StepRecorder};
 use kdray_render::{RenderError, View, World};

@@ -9,6 +9,7 @@ use crate::{
     progress::Progress,
     table::print_json,
     tree_file::{self, Trust},
+    wording::counted,
 };
 use kdray::{Scene, ShapeScene};
 use serde::Serialize;
@@ -75,7 +76,9 @@ fn tell(checked: Result<(), CliError>, scene: &ShapeScene, args: &Args) -> Resul
         let error = checked.as_ref().err().map(reason);
         print_json(&Finding { valid: checked.is_ok(), error, triangles, nodes })?;
     } else if checked.is_ok() {
-        let line = format!("the tree is valid: {nodes} nodes over {triangles} triangles\n");
+        let nodes = counted(nodes, "node", "nodes");
+        let triangles = counted(triangles, "triangle", "triangles");
+        let line = format!("the tree is valid: {nodes} over {triangles}\n");
         output::print(line.as_bytes())?;
     }
     checked

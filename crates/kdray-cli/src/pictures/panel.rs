@@ -1,7 +1,8 @@
 //! A part of a picture with its own coordinates, and the scale beside it.
 
 use super::canvas::{Anchor, Canvas, Point, Stroke, label, line, rectangle};
-use super::{palette, readable};
+use super::palette;
+use crate::wording::readable;
 use svg::node::element::Group;
 
 /// An axis-aligned rectangle in the coordinates of what is shown: `[low, high]` across and up.

@@ -1,8 +1,9 @@
 //! Which nodes a ray visits over its parameter t: a row for each depth of the tree.
 
 use super::canvas::{Anchor, Canvas, Point, Stroke, line, rectangle};
+use super::palette;
 use super::panel::ticks;
-use super::{palette, readable};
+use crate::wording::readable;
 
 const ROW: f64 = 15.0;
 const LEFT: f64 = 34.0;

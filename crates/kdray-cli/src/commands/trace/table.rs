@@ -1,8 +1,8 @@
 //! The steps of a ray as a table and as JSON.
 
 use crate::{
-    pictures::{counted, readable},
     table::columns,
+    wording::{counted, readable},
 };
 use kdray::{
     Hit, Ray, ShapeScene, Side,

@@ -3,8 +3,8 @@
 use super::table::AXES;
 use super::tile::{Tile, TileTrace};
 use crate::{
-    pictures::{counted, readable},
     table::columns,
+    wording::{counted, readable},
 };
 use kdray::traverse::{
     Frustum, LaneMask, PacketDecision, PacketLeafStep, PacketSplitStep, PacketStep,

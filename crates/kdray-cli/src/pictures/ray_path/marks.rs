@@ -2,10 +2,11 @@
 
 use super::super::canvas::{Anchor, Point, Stroke, label_on_lines, line, text_width};
 use super::super::panel::Panel;
-use super::super::{Section, legend, palette, readable};
+use super::super::{Section, legend, palette};
 use super::RayPath;
 use super::path::Path;
 use super::views::visible_t;
+use crate::wording::readable;
 use kdray::{Hit, Ray};
 use svg::node::element::Element;
 

@@ -2,7 +2,7 @@
 
 use super::super::cells::cells_on_the_way;
 use super::super::t_diagram::{Bar, Fate};
-use super::super::{counted, readable};
+use crate::wording::{counted, readable};
 use kdray::tree::Cell;
 use kdray::{
     Hit, ShapeScene,
