@@ -10,6 +10,7 @@ mod lanes_behind_the_last_ray;
 mod needles_in_tree_files;
 mod order_of_waiting_nodes;
 mod overflow_in_the_filter;
+mod overflow_of_t;
 mod rounded_way_to_a_target;
 mod sign_of_zero;
 mod slivers_beside_points;

@@ -93,6 +93,9 @@ fn in_f64() -> Vec<Target<f64>> {
         of("f64: sphere, size 1e-300", placed(&sphere(), 1e-300)),
         of("f64: sphere, size 1e-100", placed(&sphere(), 1e-100)),
         of("f64: torus, size 1e100", placed(&torus(), 1e100)),
+        // T overflows, and nothing else.
+        of("f64: torus, size 1e120", placed(&torus(), 1e120)),
+        of("f64: sphere, size 1e148", placed(&sphere(), 1e148)),
         of("f64: sphere, size 1e300", placed(&sphere(), 1e300)),
         of("f64: sphere of denormals", placed(&sphere(), 1e-315)),
         of(

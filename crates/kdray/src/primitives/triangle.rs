@@ -119,12 +119,15 @@ fn t_carefully<T: Coordinate>(
     (terms, edges): (f64, f64),
 ) -> Option<f64> {
     let t_error = t_error(terms, edges);
+    // The filter bounds ē²·M by nothing: where that overflows, the ends are infinite or NaN.
+    let in_range = terms < 1e300;
     let ends = ((volume - t_error) / den, (volume + t_error) / den);
     let Interval { t_min, t_max } = ray.interval;
-    if t_above(ends.0.max(ends.1)) < t_min || t_below(ends.0.min(ends.1)) > t_max {
+    let is_outside = t_above(ends.0.max(ends.1)) < t_min || t_below(ends.0.min(ends.1)) > t_max;
+    if in_range && is_outside {
         return None;
     }
-    let is_good = t_error <= RELATIVE_ERROR * volume.abs() && terms < 1e300;
+    let is_good = in_range && t_error <= RELATIVE_ERROR * volume.abs();
     Some(if is_good { not_vanished(volume / den) } else { t_exactly(corners, ray, den) })
 }
 
