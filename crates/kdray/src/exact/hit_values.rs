@@ -11,7 +11,7 @@ use std::cmp::Ordering;
 /// t, u, v and whether the front is hit.
 pub type Values = (f64, f64, f64, bool);
 
-/// t, u, v and whether the front is hit, without rounding before the final quotients.
+/// t, u, v and whether the front is hit, from T, U, V and den that are rounded once each.
 pub fn hit_values(ray: &Ray<3>, corners: [[f64; 3]; 3]) -> Values {
     in_short(ray, corners).unwrap_or_else(|| {
         let edges = directed_edges(corners).map(|(p, q)| edge_function(ray, p, q));

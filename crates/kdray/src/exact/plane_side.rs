@@ -4,7 +4,7 @@ use super::edge::volume_sign;
 use std::cmp::Ordering;
 
 /// A bound for the error of the volume below, in units of the sum of its terms' absolute values:
-/// 7 roundings (Shewchuk 1997, §4.3, the first bound of his ORIENT3D), and room to spare.
+/// 8 roundings at most (Shewchuk 1997, §4.3, the first bound of his ORIENT3D), and room to spare.
 const ERROR: f64 = 8.0 * f64::EPSILON;
 
 /// How `point` lies to the plane through the corners a, b, c: `Greater` in front of it, where

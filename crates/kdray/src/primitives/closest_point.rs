@@ -11,7 +11,8 @@ pub struct ClosestPoint {
     pub point: [f64; 3],
     /// How far it is from the given point. Zero exactly where that lies on the triangle; else it
     /// errs by 2^-46 of the distance from there to the triangle's farthest corner at most, usually
-    /// by 2^-52; near the smallest f64 by one of these.
+    /// by 2^-52; by 2^-44 in triangles whose angle at the first corner has a sine below 2^-40, which f64 vertices may
+    /// have; near the smallest f64 by one of these.
     pub distance: f64,
     /// The index of the triangle.
     pub primitive_id: u32,
@@ -37,6 +38,10 @@ impl ClosestPoint {
 /// and 3 more of the length. It is too large by rounding, and by what u and v are off.
 pub(crate) const DISTANCE_ERROR: f64 = 64.0 * f64::EPSILON;
 
+/// What is nearer than this, in the same units, is tested without rounding: of a point on a triangle that is so thin that
+/// its normal is all rounding, the distance may come out as large as 2^-45.
+const MAYBE_ON_TRIANGLE: f64 = 1.0 / (1_u64 << 40) as f64;
+
 /// The point of a triangle that is nearest to `point`, whose coordinates are finite.
 ///
 /// The triangle is a closed set; one without area is the segment, or the point, that its corners
@@ -48,14 +53,17 @@ pub fn closest_on_triangle(point: [f64; 3], corners: [[f64; 3]; 3], id: u32) -> 
     let length = nearest.way.length();
     let distance = not_vanished(scale.length_back(length)).min(f64::MAX);
     let size = (p - a).length_squared().max((p - b).length_squared()).max((p - c).length_squared());
-    if length > DISTANCE_ERROR * size.sqrt() {
-        let place = a + (nearest.u * (b - a) + nearest.v * (c - a));
-        // Of the largest numbers rounding may leave none.
-        let place = scale.point_back(place).clamp(DVec3::MIN, DVec3::MAX);
-        return nearest.reported(place.into(), distance, id);
+    let farthest = size.sqrt();
+    if length <= MAYBE_ON_TRIANGLE * farthest && is_on_triangle(point, corners) {
+        return nearest.reported(point, 0.0, id);
     }
-    let distance = if is_on_triangle(point, corners) { 0.0 } else { distance };
-    nearest.reported(point, distance, id)
+    if length <= DISTANCE_ERROR * farthest {
+        return nearest.reported(point, distance, id);
+    }
+    let place = a + (nearest.u * (b - a) + nearest.v * (c - a));
+    // Of the largest numbers rounding may leave none.
+    let place = scale.point_back(place).clamp(DVec3::MIN, DVec3::MAX);
+    nearest.reported(place.into(), distance, id)
 }
 
 /// A nearest point by its weights, and the way from it to the given one.

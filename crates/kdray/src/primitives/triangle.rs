@@ -35,7 +35,8 @@ pub(crate) const BARYCENTRIC_ERROR: f64 = 1.0 / (1u64 << 31) as f64;
 /// these. Its sign is exact, down to the smallest f64; beyond the largest f64 there is no hit. u and v err by 2^-30 at most. A
 /// triangle without area or seen edge-on is not hit.
 ///
-/// Corners in f32 and the same in f64 give the same hit.
+/// Corners in f32 and the same in f64 give the same hit. The ray must be one that [`Ray::check`] passes, as queries of
+/// scenes make sure; of others the answer means nothing.
 #[inline(always)]
 pub fn intersect_triangle<T: Coordinate>(
     corners: &[[T; 3]; 3],
@@ -183,7 +184,7 @@ fn t_exactly<T: Coordinate>(corners: &[[T; 3]; 3], ray: &Ray<3>, den: f64) -> f6
     hit_t(ray, corners.map(|p| p.map(T::to_f64)), den)
 }
 
-/// t, u, v and whether the front is hit, without rounding before the final quotients.
+/// t, u, v and whether the front is hit, from T, U, V and den rounded once each.
 #[cold]
 #[inline(never)]
 fn values_exactly<T: Coordinate>(corners: &[[T; 3]; 3], ray: &Ray<3>) -> Values {
