@@ -340,6 +340,20 @@ fn what_cannot_be_placed_is_refused() {
 }
 
 #[test]
+fn what_is_empty_does_not_stretch_the_scene() {
+    let empty = scene(TriangleMesh::<f64>::new(Vec::new(), Vec::new()).unwrap());
+    let far = scene(cast::<f64>(&cube(), [1000.0; 3]));
+    let instances = vec![Instance::of(0), Instance::of(1), Instance::of(0).moved([-1e6, 0.0, 0.0])];
+    let scene = InstancedScene::build(vec![empty, far.clone()], instances).unwrap();
+    let alone = InstancedScene::build(vec![far], vec![Instance::of(0)]).unwrap();
+    assert_eq!(scene.tree_space(), alone.tree_space());
+    assert_eq!(scene.tree().bounds(), alone.tree().bounds());
+    let ray = Ray::new([1000.25, 1000.5, 0.0], [0.0, 0.0, 1.0]);
+    assert_eq!(scene.count(&ray), 2);
+    assert_eq!(scene.closest_hit(&ray).map(|found| found.instance_id), Some(1));
+}
+
+#[test]
 fn nothing_is_hit_where_nothing_is() {
     let empty = scene(TriangleMesh::<f32>::default());
     let ray = Ray::new([0.0; 3], [1.0, 0.0, 0.0]);

@@ -124,6 +124,8 @@ pub(super) struct Place {
     /// The corners of a box in the world that holds it.
     pub(super) low: DVec3,
     pub(super) high: DVec3,
+    /// Whether nothing is placed there.
+    pub(super) is_empty: bool,
     /// How far from there it may be for rays, which are carried by an inverse that is rounded.
     error: f64,
 }
@@ -147,6 +149,7 @@ impl Place {
         if !(inverse_error <= INVERSE_ERROR && to_world.is_finite() && to_object.is_finite()) {
             return Err(InstanceError::Singular(index));
         }
+        let is_empty = corners.is_none();
         let corners = corners.unwrap_or_default();
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for corner in 0..8 {
@@ -158,7 +161,7 @@ impl Place {
         let farthest = low.abs().max(high.abs()) + to_world.translation.abs();
         let error = (inverse_error + CARRYING_ERROR * uneven) * farthest.element_sum();
         if (low - error).is_finite() && (high + error).is_finite() {
-            Ok(Self { to_object, low, high, error })
+            Ok(Self { to_object, low, high, is_empty, error })
         } else {
             Err(InstanceError::OutOfRange(index))
         }

@@ -4,7 +4,9 @@ use super::{InstanceHit, InstancedScene, Precision};
 use crate::geometry::Ray;
 use crate::primitives::{HitRule, TriangleMesh};
 use crate::traverse::{AllHits, LeafWalk};
-use std::collections::HashSet;
+use std::cmp::Ordering;
+use std::collections::binary_heap::PeekMut;
+use std::collections::{BinaryHeap, HashSet};
 use std::iter::FusedIterator;
 
 /// The hits of a ray on instances by rising t, equal t by rising instance and primitive id, each once.
@@ -19,8 +21,8 @@ pub struct InstanceHits<'a, T: 'static = f32> {
     walk: LeafWalk<'a, 3>,
     /// Instances that were come to.
     begun: HashSet<u32>,
-    /// Those that have a next hit.
-    waiting: Vec<Waiting<'a, T>>,
+    /// Those that have a next hit, the first of which is on top.
+    waiting: BinaryHeap<Waiting<'a, T>>,
 }
 
 /// An instance with its next hit, and those after it.
@@ -33,7 +35,7 @@ struct Waiting<'a, T: 'static> {
 impl<'a, T: Precision> InstanceHits<'a, T> {
     pub(super) fn new(scene: &'a InstancedScene<T>, ray: &Ray, rule: HitRule) -> Self {
         let walk = scene.walk(ray);
-        let (begun, waiting) = (HashSet::new(), Vec::new());
+        let (begun, waiting) = (HashSet::new(), BinaryHeap::new());
         Self { scene, ray: *ray, rule, walk, begun, waiting }
     }
 
@@ -57,13 +59,28 @@ impl<'a, T: Precision> InstanceHits<'a, T> {
         }
         true
     }
+}
 
-    /// The place of the instance whose next hit comes first.
-    fn first(&self) -> Option<usize> {
-        let places = 0..self.waiting.len();
-        places.min_by(|&a, &b| self.waiting[a].next.order(&self.waiting[b].next))
+/// The instance whose hit comes first is the greatest.
+impl<T> Ord for Waiting<'_, T> {
+    fn cmp(&self, other: &Self) -> Ordering {
+        other.next.order(&self.next)
     }
 }
+
+impl<T> PartialOrd for Waiting<'_, T> {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl<T> PartialEq for Waiting<'_, T> {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl<T> Eq for Waiting<'_, T> {}
 
 impl<T: Precision> FusedIterator for InstanceHits<'_, T> {}
 
@@ -71,18 +88,18 @@ impl<T: Precision> Iterator for InstanceHits<'_, T> {
     type Item = InstanceHit;
 
     fn next(&mut self) -> Option<InstanceHit> {
-        let place = loop {
-            let first = self.first();
-            let is_next = first.is_some_and(|it| self.waiting[it].next.hit.t < self.walk.t_next());
+        loop {
+            let first = self.waiting.peek();
+            let is_next = first.is_some_and(|it| it.next.hit.t < self.walk.t_next());
             if is_next || !self.visit_leaf() {
-                break self.first()?;
+                break;
             }
-        };
-        let Waiting { next, rest } = &mut self.waiting[place];
-        let found = *next;
-        match rest.next() {
-            Some(hit) => *next = self.scene.found(found.instance_id, hit),
-            None => drop(self.waiting.swap_remove(place)),
+        }
+        let mut first = self.waiting.peek_mut()?;
+        let found = first.next;
+        match first.rest.next() {
+            Some(hit) => first.next = self.scene.found(found.instance_id, hit),
+            None => drop(PeekMut::pop(first)),
         }
         Some(found)
     }

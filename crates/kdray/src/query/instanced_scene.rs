@@ -26,6 +26,9 @@ use thiserror::Error;
 /// coordinates of its own, as that over an f64 mesh is ([`tree_space`](Self::tree_space)); what was said of the
 /// largest coordinate is so of the scene's size.
 ///
+/// The direction is carried as well. One that is beyond the range of f64 then, as one of 1e308 is in a copy at a tenth of
+/// the size, misses that instance.
+///
 /// ```
 /// use kdray::{BuildOptions, Instance, InstancedScene, Ray, Scene, TriangleMesh};
 /// let corners = vec![[0.0, 0.0, 2.0], [1.0, 0.0, 2.0], [0.0, 1.0, 2.0]];
@@ -106,7 +109,8 @@ impl<T: Precision> InstancedScene<T> {
             let space = geometry.mesh().tree_space();
             Place::of(index, instance, bounds.map(|bounds| space.corners_in_mesh(bounds)))
         };
-        let places = instances.iter().enumerate().map(place).collect::<Result<Vec<_>, _>>()?;
+        let mut places = instances.iter().enumerate().map(place).collect::<Result<Vec<_>, _>>()?;
+        hide_empty(&mut places);
         let space = space_around::<T>(&places);
         let bounds = |(index, place): (usize, &Place)| {
             place.bounds::<T>(&space).ok_or(InstanceError::OutOfRange(index))
@@ -148,9 +152,12 @@ impl<T: Precision> InstancedScene<T> {
     #[must_use]
     pub fn closest_hit(&self, ray: &Ray) -> Option<InstanceHit> {
         let mut walk = self.walk(ray);
-        let (mut ray, mut closest) = (*ray, None::<InstanceHit>);
+        let (mut ray, mut closest, mut asked) = (*ray, None::<InstanceHit>, Vec::new());
         while let Some(leaf) = walk.next_leaf(ray.interval.t_max, &mut ()) {
             for &id in leaf.primitives {
+                if !is_new(id, &mut asked) {
+                    continue;
+                }
                 let Some((geometry, carried)) = self.carry(id, &ray) else { continue };
                 let found = geometry.closest_hit(&carried).map(|hit| self.found(id, hit));
                 if let Some(found) = found
@@ -168,10 +175,11 @@ impl<T: Precision> InstancedScene<T> {
     /// Whether there is any hit: whether `ray.interval` is occluded.
     #[must_use]
     pub fn any_hit(&self, ray: &Ray) -> bool {
-        let mut walk = self.walk(ray);
+        let (mut walk, mut asked) = (self.walk(ray), Vec::new());
         while let Some(leaf) = walk.next_leaf(ray.interval.t_max, &mut ()) {
-            let is_hit = |id: u32| {
-                self.carry(id, ray).is_some_and(|(geometry, carried)| geometry.any_hit(&carried))
+            let mut is_hit = |id: u32| {
+                is_new(id, &mut asked)
+                    && self.carry(id, ray).is_some_and(|(geometry, ray)| geometry.any_hit(&ray))
             };
             if leaf.primitives.iter().any(|&id| is_hit(id)) {
                 return true;
@@ -224,6 +232,26 @@ impl<T: Precision> InstancedScene<T> {
     pub(super) fn found(&self, instance_id: u32, hit: Hit) -> InstanceHit {
         let geometry_id = self.parts.instances[instance_id as usize].geometry_id;
         InstanceHit { hit, instance_id, geometry_id }
+    }
+}
+
+/// Whether an instance was not asked yet, in this leaf or another; then it is now. They are few: to go through them is
+/// faster than to hash.
+fn is_new(id: u32, asked: &mut Vec<u32>) -> bool {
+    let is_new = !asked.contains(&id);
+    if is_new {
+        asked.push(id);
+    }
+    is_new
+}
+
+/// Puts instances of nothing where another is, so that they do not stretch the scene. Where all are of nothing, they
+/// stay where their origins are.
+fn hide_empty(places: &mut [Place]) {
+    if let Some(other) = places.iter().find(|place| !place.is_empty).map(|it| (it.low, it.high)) {
+        for place in places.iter_mut().filter(|place| place.is_empty) {
+            (place.low, place.high) = other;
+        }
     }
 }
 
