@@ -76,7 +76,7 @@ fn wave_of_hits<F: Real>(
     Ok(blocks)
 }
 
-/// How many there are of each ray: fewer than 2^31.
+/// How many there are of each ray, or 2^31 - 1 if there are more.
 pub(crate) fn count(tree: &Tree, rays: &Rays<'_>, control: &Control) -> PyResult<Vec<i32>> {
     let mut answers = vec![0; rays.len()];
     let parts = answers.chunks_mut(BLOCK).enumerate().collect();
@@ -86,7 +86,10 @@ pub(crate) fn count(tree: &Tree, rays: &Rays<'_>, control: &Control) -> PyResult
         rays.read(first..first + answers.len(), block)?;
         counts.resize(answers.len(), 0);
         for_scene!(tree, scene => Cast::counts(scene, block, counts));
-        answers.iter_mut().zip(counts).for_each(|(answer, count)| *answer = *count as i32);
+        answers
+            .iter_mut()
+            .zip(counts)
+            .for_each(|(answer, count)| *answer = i32::try_from(*count).unwrap_or(i32::MAX));
         control.add(answers.len());
         Ok(())
     })?;

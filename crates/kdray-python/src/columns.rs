@@ -13,13 +13,17 @@ const NONE: i32 = -1;
 
 /// The floats that answers are made of.
 pub(crate) trait Real: Element + Copy + Send + Sync + Default {
-    /// The nearest to a number.
+    /// The nearest finite one to a finite number; infinities and NaN stay.
     fn of(number: f64) -> Self;
 }
 
 impl Real for f32 {
     fn of(number: f64) -> Self {
-        number as Self
+        let rounded = number as Self;
+        if rounded.is_infinite() && number.is_finite() {
+            return Self::MAX.copysign(rounded);
+        }
+        rounded
     }
 }
 

@@ -4,7 +4,7 @@ use crate::{error, pool};
 use pyo3::{Py, PyAny, PyErr, PyResult, Python};
 use rayon::prelude::*;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering::Relaxed};
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering::Relaxed};
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::time::Duration;
 
@@ -128,23 +128,28 @@ fn caught<R>(work: impl FnOnce() -> PyResult<R>) -> PyResult<R> {
 }
 
 /// Does each part of the work, on all threads of the pool that this is called in, until one fails or all is to
-/// end. A single part is done on this thread, whichever it is.
+/// end; of several that fail the first is told. A single part is done on this thread, whichever it is.
 pub(crate) fn each_part<P: Send, S>(
     control: &Control,
     parts: Vec<P>,
     scratch: impl Fn() -> S + Send + Sync,
     work: impl Fn(&mut S, P) -> PyResult<()> + Send + Sync,
 ) -> PyResult<()> {
-    let one = |scratch: &mut S, part: P| {
-        if control.is_stopped() {
-            Ok(())
-        } else {
-            work(scratch, part).inspect_err(|_: &PyErr| control.stop())
+    // Those before one that failed may fail as well, and then it is theirs that is told, on any number of threads.
+    let failed = AtomicUsize::new(usize::MAX);
+    let one = |scratch: &mut S, (index, part): (usize, P)| {
+        if control.is_stopped() || index > failed.load(Relaxed) {
+            return Ok(());
         }
+        work(scratch, part).inspect_err(|_: &PyErr| {
+            failed.fetch_min(index, Relaxed);
+        })
     };
     if parts.len() <= 1 {
         let mut scratch = scratch();
-        return parts.into_iter().try_for_each(|part| one(&mut scratch, part));
+        return parts.into_iter().enumerate().try_for_each(|part| one(&mut scratch, part));
     }
-    parts.into_par_iter().map_init(scratch, one).collect()
+    let parts = parts.into_par_iter().enumerate();
+    let answers: Vec<PyResult<()>> = parts.map_init(scratch, one).collect();
+    answers.into_iter().collect()
 }

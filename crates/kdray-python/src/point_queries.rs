@@ -152,7 +152,13 @@ pub(crate) fn thickness<'py>(
     let (primitives, geometries) = (primitive_id.as_array(), geometry_id.as_array());
     let ids = primitives.iter().zip(geometries);
     let ids = ids.map(|(&primitive, &geometry)| tree.places.index(primitive, geometry)).collect();
-    let at = Surface { ids, weights: [u.as_array(), v.as_array()] };
+    // Two weights below one.
+    const ROUNDED: f64 = f32::EPSILON as f64;
+    let at = Surface {
+        ids,
+        weights: [u.as_array(), v.as_array()],
+        rounded: if is_double { 0.0 } else { ROUNDED },
+    };
     let job = Job::new(threads, progress)?;
     let answer = for_points!(tree, scene => {
         run(py, &job, at.ids.len(), |control| points::thickness(scene, &at, side, control))

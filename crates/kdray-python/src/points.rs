@@ -139,6 +139,9 @@ pub(crate) fn visible<T: Precision>(
 pub(crate) struct Surface<'a> {
     pub(crate) ids: Vec<Option<u32>>,
     pub(crate) weights: [ArrayView1<'a, f64>; 2],
+    /// What the sum of the weights may be off by, because they were rounded to f32: places that are as near to the edge
+    /// opposite the first corner lie on it.
+    pub(crate) rounded: f64,
 }
 
 /// How thick the material behind each place is; NaN where nothing is behind it, or there is no such triangle.
@@ -152,7 +155,10 @@ pub(crate) fn thickness<T: Precision>(
     let parts = answers.chunks_mut(BLOCK).enumerate().collect();
     let one = |index: usize| {
         let [u, v] = at.weights;
-        scene.thickness(at.ids[index]?, *u.get(index)?, *v.get(index)?, side)
+        let (u, v) = (*u.get(index)?, *v.get(index)?);
+        // On the edge of the second and third corners.
+        let v = if (1.0 - u - v).abs() < at.rounded { 1.0 - u } else { v };
+        scene.thickness(at.ids[index]?, u, v, side)
     };
     each_part(
         control,

@@ -69,9 +69,15 @@ pub(crate) fn bounds(tree: &Tree) -> Option<[[f64; 3]; 2]> {
     match &tree.kind {
         Kind::F32(scene) => bounds_of(scene.mesh()),
         Kind::F64(scene) => bounds_of(scene.mesh()),
+        Kind::Copies32(_) | Kind::Copies64(_) if !has_triangles(tree) => None,
         Kind::Copies32(scene) => bounds_of_tree(scene.tree(), scene.tree_space()),
         Kind::Copies64(scene) => bounds_of_tree(scene.tree(), scene.tree_space()),
     }
+}
+
+/// Whether any geometry has a triangle.
+fn has_triangles(tree: &Tree) -> bool {
+    meshes(tree).iter().any(|mesh| !mesh.triangles().is_empty())
 }
 
 /// Those of the tree over instances, which is in coordinates of its own.
@@ -125,10 +131,11 @@ pub(crate) fn faces(tree: &Tree) -> Vec<[u32; 3]> {
 pub(crate) fn normals(tree: &Tree, ids: Ids<'_>) -> Vec<[f64; 3]> {
     each(tree, ids, |_, placed| {
         let [a, b, c] = placed.corners.map(DVec3::from);
+        let [ab, ac] = [b - a, c - a].map(|edge| placed.turned(edge));
         // Scaled, so that neither squares nor products leave the range of f64.
-        let scale = (b - a).abs().max((c - a).abs()).max_element();
-        let normal = ((b - a) / scale).cross((c - a) / scale).try_normalize()?;
-        Some(if placed.is_mirrored { -normal } else { normal }.into())
+        let scale = ab.abs().max(ac.abs()).max_element();
+        let normal = (ab / scale).cross(ac / scale).try_normalize()?;
+        Some(if placed.is_mirrored() { -normal } else { normal }.into())
     })
 }
 
@@ -139,17 +146,36 @@ pub(crate) fn positions(
     [u, v]: [ArrayView1<'_, f64>; 2],
 ) -> Vec<[f64; 3]> {
     each(tree, ids, |index, placed| {
-        let [a, b, c] = placed.corners;
+        let [a, b, c] = placed.corners.map(|corner| placed.moved(corner));
         let (u, v) = (*u.get(index)?, *v.get(index)?);
         Some([0, 1, 2].map(|k| (1.0 - u - v) * a[k] + u * b[k] + v * c[k]))
     })
 }
 
-/// A triangle where it is in the world.
+/// A triangle, and where its instance puts it.
 struct Placed {
     corners: [[f64; 3]; 3],
-    /// Whether its instance's matrix turns left to right; the front stays the front.
-    is_mirrored: bool,
+    to_world: [[f64; 4]; 3],
+}
+
+impl Placed {
+    /// The world's point for one of the geometry.
+    fn moved(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
+        self.to_world.map(|[a, b, c, offset]| a * x + b * y + c * z + offset)
+    }
+
+    /// The world's direction for one of the geometry. Edges are turned, and not corners moved: far away their digits
+    /// would be lost.
+    fn turned(&self, DVec3 { x, y, z }: DVec3) -> DVec3 {
+        self.to_world.map(|[a, b, c, _]| a * x + b * y + c * z).into()
+    }
+
+    /// Whether the matrix turns left to right; the front stays the front.
+    fn is_mirrored(&self) -> bool {
+        let [x, y, z] = DVec3::AXES.map(|axis| self.turned(axis));
+        let largest = x.abs().max(y.abs()).max(z.abs()).max_element();
+        (x / largest).cross(y / largest).dot(z / largest) < 0.0
+    }
 }
 
 /// What `find` makes of each triangle, and of its index.
@@ -186,15 +212,7 @@ fn place(
     let corners = mesh.corners(id);
     let instances = instances(tree);
     if instances.is_empty() || instance < 0 {
-        return Some(Placed { corners, is_mirrored: false });
+        return Some(Placed { corners, to_world: Instance::IDENTITY });
     }
-    let to_world = &instances.get(instance as usize)?.to_world;
-    let axis = |k: usize| DVec3::from(to_world.map(|row| row[k]));
-    let is_mirrored = axis(0).cross(axis(1)).dot(axis(2)) < 0.0;
-    Some(Placed { corners: corners.map(|it| moved(to_world, it)), is_mirrored })
-}
-
-/// The world's point for one of a geometry.
-fn moved(to_world: &[[f64; 4]; 3], [x, y, z]: [f64; 3]) -> [f64; 3] {
-    to_world.map(|[a, b, c, offset]| a * x + b * y + c * z + offset)
+    Some(Placed { corners, to_world: instances.get(instance as usize)?.to_world })
 }

@@ -114,6 +114,39 @@ def test_several_geometries_have_ids_of_their_own():
     assert scene.faces.max() == 23 and scene.vertices.shape == (24, 3)
 
 
+def test_normals_of_instances_are_exact_at_any_size_and_place():
+    ray = [0.3, 0.2, 3.0, 0, 0, -1]
+    for scale in (1e-120, 1e-10, 1e120):
+        scene = kdray.Scene(CUBE_VERTICES, CUBE_FACES, dtype=np.float64)
+        scene.add_instance(0, np.diag([-scale, scale, scale, 1.0]))
+        hits = scene.closest_hit(np.multiply(ray, [-scale, scale, scale, 1, 1, 1]))
+        assert hits.front and hits.normal.tolist() == [0, 0, 1], scale
+    turned = np.eye(4)
+    turned[:3] = [[0.36, 0.48, -0.8, 1e9], [-0.8, 0.6, 0, 1e9], [0.48, 0.64, 0.6, 1e9]]
+    scene = kdray.Scene(CUBE_VERTICES * np.float32(2**-13), CUBE_FACES, dtype=np.float64)
+    scene.add_instance(0, turned)
+    hits = scene.closest_hit(turned[:3, :3] @ [0.3 * 2**-13, 0.2 * 2**-13, 9] + 1e9, -turned[:3, 2])
+    np.testing.assert_allclose(hits.normal, turned[:3, 2], atol=1e-12)
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_bounds_of_instances_leave_out_what_is_empty(dtype):
+    scene = kdray.Scene(np.zeros((0, 3), dtype), np.zeros((0, 3), int), dtype=dtype)
+    scene.add_instance(0, np.eye(4))
+    assert scene.bounds is None and not scene.any_hit([0, 0, -1, 0, 0, 1])
+    scene = kdray.Scene(np.zeros((0, 3), dtype), np.zeros((0, 3), int), dtype=dtype)
+    cube = scene.add_triangles(CUBE_VERTICES + np.float32(1000), CUBE_FACES)
+    scene.add_instance(cube, np.eye(4))
+    np.testing.assert_allclose(scene.bounds, [[1000] * 3, [1001] * 3], atol=0.01)
+    assert scene.count([1000.3, 1000.2, 0, 0, 0, 1]) == 2
+
+
+def test_finite_t_of_f32_rays_stay_finite(cube):
+    hits = cube.closest_hit(np.array([0.3, 0.2, -1, 0, 0, 1e-40], np.float32))
+    assert hits.t == np.finfo(np.float32).max and hits.primitive_id >= 0
+    assert cube.closest_hit(np.array([3, 2, -1, 0, 0, 1], np.float32)).t == np.inf
+
+
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
 def test_instances_are_placed_and_masked(dtype):
     scene = kdray.Scene(CUBE_VERTICES, CUBE_FACES, dtype=dtype)

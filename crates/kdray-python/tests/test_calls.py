@@ -131,6 +131,13 @@ def test_what_the_progress_function_raises_ends_the_call(large):
         large.any_hit(np.broadcast_to(random_rays(1)[0], (10**9, 6)), progress=tell)
 
 
+def test_a_progress_function_that_asks_its_own_scene_is_told():
+    scene = kdray.Scene(*sphere(30))
+    with pytest.raises(kdray.SceneError, match="being built"):
+        scene.build(progress=lambda done, total: scene.bounds)
+    assert not scene.is_built and scene.build().bounds is not None
+
+
 def test_progress_by_tqdm(ball, capsys, monkeypatch):
     ball.any_hit(random_rays(5000), progress=True)
     assert "5.00k/5.00k" in capsys.readouterr().err

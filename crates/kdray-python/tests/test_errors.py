@@ -68,6 +68,15 @@ def test_a_bad_ray_among_many_is_named(cube, query):
         fails(kdray.ArgumentError, f"directions: that {bad}", getattr(cube, query), rays[:, :3], rays[:, 3:])
 
 
+def test_the_first_bad_ray_is_named_on_any_number_of_threads(cube):
+    rays = random_rays(20_000)
+    rays[3000::1500, 4] = NAN
+    points = rays[:, 3:]
+    for threads in [1, 2, 4] * 5:
+        fails(kdray.ArgumentError, "rays: the direction of ray 3000 is", cube.closest_hit, rays, threads=threads)
+        fails(kdray.ArgumentError, "points: that of index 3000 is", cube.contains, points, threads=threads)
+
+
 def test_bad_rays_may_miss(cube):
     rays = random_rays(3000)
     good = cube.closest_hit(rays)
@@ -131,6 +140,15 @@ def test_builds(cube):
     fails(kdray.BuildError, "the build needs", cube.build, memory_limit=1000)
     assert not cube.is_built and len(cube) == 12, "what failed left nothing behind"
     assert cube.count([0.3, 0.2, -1, 0, 0, 1]) == 2
+
+
+def test_a_memory_limit_is_for_all_geometries():
+    scene = kdray.Scene()
+    for _ in range(100):
+        scene.add_triangles(CUBE_VERTICES, CUBE_FACES)
+    scene.add_instance(0, np.eye(4))
+    fails(kdray.BuildError, "the build needs", scene.build, memory_limit=1_060_000)
+    assert scene.build(memory_limit=2_000_000).is_built
 
 
 def test_a_scene_that_is_built_cannot_be_changed(cube):

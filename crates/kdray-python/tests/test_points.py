@@ -66,6 +66,16 @@ def test_thickness(cube):
     fails(kdray.ArgumentError, "side", cube.thickness, [0.3, 0.2, -1], side="top")
 
 
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_thickness_at_edges_leaves_out_their_triangles(cube, dtype):
+    rng = np.random.default_rng(2)
+    for axis, sides in [(axis, sides) for axis in range(3) for sides in ([0, 0], [0, 1], [1, 0], [1, 1])]:
+        places = np.insert(np.repeat([sides], 300, axis=0).astype(float), axis, rng.uniform(0.1, 0.9, 300), axis=1)
+        # From beside an edge, so that it is the nearest.
+        points = places + np.where(np.arange(3) == axis, 0, places - 0.5)
+        np.testing.assert_allclose(cube.thickness(points.astype(dtype)), 1, atol=1e-6, err_msg=f"{axis}, {sides}")
+
+
 def test_visibility(cube):
     eye, others = [0.5, 0.4, 3], [[0.5, 0.4, 2], [0.5, 0.4, 1], [0.5, 0.4, 0.5], [0.5, 0.4, -1]]
     np.testing.assert_array_equal(cube.visible(eye, others), [True, True, False, False])

@@ -23,7 +23,8 @@ if TYPE_CHECKING:
 class PointQueries:
     """Queries about points. All take arrays (..., 3), and answer in the shape (...), or with more behind it.
 
-    A point that is not finite is an error, or with ``invalid="miss"`` nowhere: not inside, of no distance (NaN).
+    A point that is not finite is an error, or with ``invalid="miss"`` nowhere: not inside, infinitely far, its
+    signed distance and winding number NaN.
     Answers are f32 if the points are, else f64. ``threads`` and ``progress`` are those of ``RayQueries``.
     Scenes with instances do not answer.
     """

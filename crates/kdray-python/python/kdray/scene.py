@@ -7,7 +7,7 @@ import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from html import escape
-from threading import Lock
+from threading import Lock, get_ident
 from typing import TYPE_CHECKING, Any, Optional
 
 import numpy as np
@@ -70,6 +70,7 @@ class Scene(RayQueries, PointQueries, Rendering, Saving):
         self._copies: list[_Copy] = []
         self._tree: Optional[Tree] = None
         self._lock = Lock()
+        self._holder: Optional[int] = None
         if vertices is not None and faces is not None:
             self.add_triangles(vertices, faces)
         elif vertices is not None or faces is not None:
@@ -162,7 +163,7 @@ class Scene(RayQueries, PointQueries, Rendering, Saving):
         take more than ``memory_limit`` bytes is refused. The tree is the same for any number of threads.
         """
         options = {"leaf_size": leaf_size, "max_depth": max_depth, "memory_limit": memory_limit}
-        with self._lock:
+        with self._held():
             if self._tree is not None:
                 raise SceneError("the scene is built already; make a new one to build it otherwise")
             self._build(preset, split, options, threads, progress)
@@ -243,7 +244,7 @@ class Scene(RayQueries, PointQueries, Rendering, Saving):
     def _built(self, threads: Optional[int] = None) -> Tree:
         tree = self._tree
         if tree is None:
-            with self._lock:
+            with self._held():
                 tree = self._tree or self._build(None, None, {}, threads, None)
         return tree
 
@@ -293,9 +294,21 @@ class Scene(RayQueries, PointQueries, Rendering, Saving):
         return self._tree
 
     @contextmanager
+    def _held(self) -> Iterator[None]:
+        """Holds the lock. What is called meanwhile, to be told of progress, cannot have it too."""
+        if self._holder == get_ident():
+            raise SceneError("the scene is being built; ask it when that is done")
+        with self._lock:
+            self._holder = get_ident()
+            try:
+                yield
+            finally:
+                self._holder = None
+
+    @contextmanager
     def _changing(self) -> Iterator[None]:
         """Holds the lock while something is added."""
-        with self._lock:
+        with self._held():
             if self._tree is not None:
                 raise SceneError("the scene is built, and cannot be changed any more; make a new one")
             yield
