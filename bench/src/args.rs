@@ -90,7 +90,8 @@ pub(crate) struct ViewArgs {
     /// The point in the middle of the picture
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = numbers)]
     pub(crate) look_at: Option<[f64; 3]>,
-    /// What points up in the picture
+    /// What points up in the picture; without it what the camera says. A file without a camera is seen
+    /// from above accordingly, or as if +y were up
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = numbers)]
     pub(crate) up: Option<[f64; 3]>,
     /// The angle between the lower and the upper edge of the picture, below 180

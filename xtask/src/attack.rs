@@ -19,7 +19,7 @@ pub(crate) struct Options {
     /// Only targets whose names contain one of these, separated by commas.
     #[arg(long)]
     targets: Option<String>,
-    /// Only targets of f32 or of f64 vertices.
+    /// Only targets of f32 vertices, or only those of f64 ones.
     #[arg(long, value_parser = ["f32", "f64"])]
     precision: Option<String>,
     /// Only targets that are made by code, and 20,000 rays.

@@ -15,7 +15,7 @@ use std::path::Path;
 pub(crate) struct Backdrop<'a> {
     pub(crate) world: &'a World,
     pub(crate) camera: &'a Camera,
-    /// Whose lights shine.
+    /// Whose lights shine, and whose sky it is.
     pub(crate) view: &'a ViewArgs,
     pub(crate) size: Size,
     /// Rays a pixel.

@@ -5,6 +5,7 @@ use crate::{
     cli::Globals,
     error::CliError,
     progress::Progress,
+    wording::counted,
 };
 use kdray::Scene;
 use std::path::Path;
@@ -68,11 +69,10 @@ fn open(
         Trust::Yes => kdray_file::map(path)?,
         Trust::No => kdray_file::load(path, limits.memory_limit.unwrap_or_default().bytes())?,
     };
-    let (nodes, took) = (scene.tree().nodes().len(), progress.elapsed());
-    let triangles = scene.mesh().triangles().len();
-    progress.finish(&format!(
-        "{done} a tree of {nodes} nodes over {triangles} triangles, {name}, in {took:.2?}"
-    ));
+    let took = progress.elapsed();
+    let nodes = counted(scene.tree().nodes().len(), "node", "nodes");
+    let triangles = counted(scene.mesh().triangles().len(), "triangle", "triangles");
+    progress.finish(&format!("{done} a tree of {nodes} over {triangles}, {name}, in {took:.2?}"));
     Ok(scene)
 }
 

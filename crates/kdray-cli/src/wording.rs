@@ -1,8 +1,15 @@
 //! Numbers as people read them.
 
+use std::fmt::Display;
+
 /// A number of things, in the right form.
-pub(crate) fn counted(count: usize, one: &str, many: &str) -> String {
-    format!("{count} {}", if count == 1 { one } else { many })
+pub(crate) fn counted<N: Display + PartialEq + From<u8>>(
+    count: N,
+    one: &str,
+    many: &str,
+) -> String {
+    let name = if count == N::from(1) { one } else { many };
+    format!("{count} {name}")
 }
 
 /// A number for people: six significant digits at most, no trailing zeros, `∞` and `–` for what
@@ -25,9 +32,25 @@ pub(crate) fn readable(value: f64) -> String {
     if text == "-0" { "0".into() } else { text.into() }
 }
 
+/// A number in three digits.
+pub(crate) fn three_digits(value: f64) -> String {
+    let magnitude = if value == 0.0 { 0.0 } else { value.abs().log10().floor() };
+    if !(-4.0..7.0).contains(&magnitude) {
+        return format!("{value:.1e}");
+    }
+    let decimals = (2.0 - magnitude).max(0.0) as usize;
+    format!("{value:.decimals$}")
+}
+
 #[cfg(test)]
 mod tests {
-    use super::readable;
+    use super::*;
+
+    #[test]
+    fn one_is_not_many() {
+        let found = [0, 1, 2].map(|count| counted(count, "leaf", "leaves"));
+        assert_eq!(found, ["0 leaves", "1 leaf", "2 leaves"]);
+    }
 
     #[test]
     fn numbers_are_short_and_true() {
@@ -42,6 +65,14 @@ mod tests {
             (f64::NAN, "–"),
         ] {
             assert_eq!(readable(value), text);
+        }
+    }
+
+    #[test]
+    fn values_have_three_digits() {
+        for (value, text) in [(0.0, "0.00"), (1234.5, "1234"), (0.012345, "0.0123"), (9.87, "9.87")]
+        {
+            assert_eq!(three_digits(value), text);
         }
     }
 }

@@ -127,6 +127,33 @@ fn the_picture_depends_on_the_view_and_not_on_split_or_threads() {
 }
 
 #[test]
+fn up_turns_frame_and_sky() {
+    const VERTICES: [&str; 2] = [
+        "0 0 0\n2 0 0\n2 1 0\n0 3 0\n0 0 1\n2 0 1\n",
+        "0 0 0\n2 0 0\n2 0 1\n0 0 3\n0 -1 0\n2 -1 0\n",
+    ];
+    let [step, turned] =
+        VERTICES.map(|it| format!("OFF\n6 4 0\n{it}3 0 1 2\n3 0 2 3\n3 0 1 5\n3 0 5 4\n"));
+    let folder = Folder::new();
+    let pixels = |text: &str, arguments: &[&str]| {
+        folder.file("step.off", text);
+        let render = ["render", "step.off", "--ambient-rays", "0"];
+        folder.kdray(&[&render, &SMALL[..], arguments].concat()).succeeds();
+        picture(&folder.path("kdray.png")).to_rgba8()
+    };
+    let upright = pixels(&step, &[]);
+    let found = pixels(&turned, &["--up=0,0,1"]);
+    let same = upright.pixels().zip(found.pixels()).filter(|(a, b)| a == b).count();
+    assert!(same * 100 > 95 * 24 * 16, "{same} pixels are the same");
+    assert_ne!(pixels(&turned, &[]), upright);
+
+    let away = ["--eye=9,0,0", "--look-at=30,0,0", "--fov=90", "--up=0,0,1"];
+    let sky = pixels(&step, &away);
+    let red: Vec<u8> = (0..8).map(|y| sky.get_pixel(12, y)[0]).collect();
+    assert!(red.is_sorted() && red[0] + 30 < red[7], "{red:?}");
+}
+
+#[test]
 fn cameras_of_a_file_are_named() {
     let ran = folder().kdray(&["render", "ball.off", "--camera", "left"]);
     ran.fails(USAGE, &["no such camera; the scene has none"]);

@@ -90,7 +90,7 @@ fn missing_parts_are_named_unless_they_are_allowed() {
     ran.fails(INPUT, &[missing, "--allow-missing"]);
     assert!(!folder.path("merged.png").exists());
     let ran = merge(&folder, &["left.exr", "-o", "merged.png", "--allow-missing"]).succeeds();
-    assert!(ran.stderr.contains("merged 1 parts into 50.0 % of 24 x 16 pixels"), "{}", ran.stderr);
+    assert!(ran.stderr.contains("merged 1 part into 50.0 % of 24 x 16 pixels"), "{}", ran.stderr);
     let picture = image::open(folder.path("merged.png")).expect("a picture").to_rgba8();
     assert_eq!((picture.get_pixel(11, 9)[3], picture.get_pixel(12, 9)[3]), (255, 0));
 }

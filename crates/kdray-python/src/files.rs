@@ -31,7 +31,7 @@ pub(crate) fn read_mesh(
     let job = Job::new(None, None)?;
     job.run(py, 1, |_| {
         let options = LoadOptions { drop_bad, ..LoadOptions::default() };
-        let model = kdray_scene::load(&path, &options).map_err(unreadable)?;
+        let model = kdray_scene::load(&path, &options).map_err(refused_file)?;
         let (vertices, triangles) = (model.vertices, model.triangles);
         let mesh = TriangleMesh::new(vertices, triangles).map_err(refused)?;
         let look = Model { vertices: Vec::new(), triangles: Vec::new(), ..model };
@@ -44,7 +44,7 @@ pub(crate) fn read_mesh(
 #[pyfunction]
 pub(crate) fn is_tree_file(py: Python<'_>, path: PathBuf) -> PyResult<bool> {
     let asked = py.detach(|| kdray_file::is_tree_file(&path));
-    asked.map_err(|source| unreadable(TreeFileError::Io { path, source }))
+    asked.map_err(|source| refused_file(TreeFileError::Io { path, source }))
 }
 
 /// Writes a scene of one geometry to a file.
@@ -55,7 +55,7 @@ pub(crate) fn save_tree(py: Python<'_>, tree: &Tree, path: PathBuf) -> PyResult<
             let reason = "a tree file holds one geometry, but the scene has several; join their triangles";
             return Err(SceneError::new_err(reason));
         }
-        Job::new(None, None)?.run(py, 1, |_| kdray_file::save(scene, &path).map_err(unreadable))
+        Job::new(None, None)?.run(py, 1, |_| kdray_file::save(scene, &path).map_err(refused_file))
     })
 }
 
@@ -71,23 +71,24 @@ pub(crate) fn load_tree(
     let bytes = |limit| u64::try_from(limit).map_err(|_| argument("memory_limit", "give bytes"));
     let limit = memory_limit.map(bytes).transpose()?;
     Job::new(threads, None)?
-        .run(py, 1, |_| kdray_file::load_any(&path, limit).map(Tree::from).map_err(unreadable))
+        .run(py, 1, |_| kdray_file::load_any(&path, limit).map(Tree::from).map_err(refused_file))
 }
 
 /// Maps a tree file into memory.
 #[pyfunction]
 pub(crate) fn map_tree(py: Python<'_>, path: PathBuf) -> PyResult<Tree> {
-    py.detach(|| kdray_file::map_any(&path)).map(Tree::from).map_err(unreadable)
+    py.detach(|| kdray_file::map_any(&path)).map(Tree::from).map_err(refused_file)
 }
 
 /// The hash of what a tree file holds, which stands in its header.
 #[pyfunction]
 pub(crate) fn file_hash(py: Python<'_>, path: PathBuf) -> PyResult<String> {
     py.detach(|| {
-        let header = read_header(&path);
-        let header = header
-            .map_err(|source| unreadable(TreeFileError::Io { path: path.clone(), source }))?;
-        hash(&header).map_err(|source| unreadable(TreeFileError::File { path, source }))
+        let header = match read_header(&path) {
+            Ok(header) => header,
+            Err(source) => return Err(refused_file(TreeFileError::Io { path, source })),
+        };
+        hash(&header).map_err(|source| refused_file(TreeFileError::File { path, source }))
     })
 }
 
@@ -124,22 +125,22 @@ fn hash(header: &[u8]) -> Result<String, kdray::FileError> {
     Ok(format!("{:016x}", u64::from_le_bytes(checksum)))
 }
 
-/// An error about a file.
-trait AboutFile: ToString {
-    /// What the system says about the file itself, if it was the system that refused.
+/// Why a file is refused.
+trait Refusal: ToString {
+    /// What the system says about the file, or one that it needs, if it was the system that refused.
     fn of_system(&self) -> Option<io::ErrorKind>;
 }
 
-impl AboutFile for LoadError {
+impl Refusal for LoadError {
     fn of_system(&self) -> Option<io::ErrorKind> {
         match self {
-            Self::Io { error, .. } => Some(error.kind()),
+            Self::Io { error, .. } | Self::Missing { error, .. } => Some(error.kind()),
             _ => None,
         }
     }
 }
 
-impl AboutFile for TreeFileError {
+impl Refusal for TreeFileError {
     fn of_system(&self) -> Option<io::ErrorKind> {
         match self {
             Self::Io { source, .. } => Some(source.kind()),
@@ -149,7 +150,7 @@ impl AboutFile for TreeFileError {
 }
 
 /// That a file cannot be read or written.
-fn unreadable(error: impl AboutFile) -> PyErr {
+fn refused_file(error: impl Refusal) -> PyErr {
     match error.of_system() {
         Some(io::ErrorKind::NotFound) => MissingFileError::new_err(error.to_string()),
         _ => FileError::new_err(error.to_string()),

@@ -48,6 +48,13 @@ pub(crate) struct View {
     light: Vec<[f64; 3]>,
 }
 
+impl View {
+    /// What is up in the scene, whatever its cameras say.
+    fn upward(&self) -> [f64; 3] {
+        self.up.unwrap_or(Y_UP)
+    }
+}
+
 /// What is computed, and how well; by the words of the command line.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
@@ -102,7 +109,7 @@ fn follow(control: &Control, pixels: f64) -> ControlFlow<()> {
 
 fn options(view: &View, quality: &Quality) -> PyResult<RenderOptions> {
     let default = RenderOptions::default();
-    let sky = || Background::sky(view.up.unwrap_or(Y_UP));
+    let sky = || Background::sky(view.upward());
     Ok(RenderOptions {
         width: view.width,
         height: view.height,
@@ -150,10 +157,9 @@ fn camera(view: &View, world: &kdray_render::World) -> PyResult<Camera> {
     let cameras = &world.model().cameras;
     let aspect = view.width as f64 / view.height.max(1) as f64;
     let mut camera = match &view.camera {
-        None => cameras
-            .first()
-            .cloned()
-            .unwrap_or_else(|| frame(world.bounds(), view.up.unwrap_or(Y_UP), aspect)),
+        None => {
+            cameras.first().cloned().unwrap_or_else(|| frame(world.bounds(), view.upward(), aspect))
+        }
         Some(name) => {
             let by_name = cameras.iter().find(|camera| camera.name == *name);
             let found = by_name.or_else(|| cameras.get(name.parse::<usize>().ok()?));

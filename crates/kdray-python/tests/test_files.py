@@ -1,5 +1,7 @@
 """Mesh files, tree files, pickles."""
 
+import errno
+import json
 import os
 import pickle
 import subprocess
@@ -76,7 +78,7 @@ def test_pickling_needs_a_file_that_is_still_there(cube, saved):
     kdray.Scene(*sphere(12, seed=1)).save(path)
     fails(kdray.FileError, f"{path}: the file has changed", pickle.loads, text)
     path.unlink()
-    fails(kdray.FileError, str(path), pickle.loads, text)
+    fails(kdray.MissingFileError, str(path), pickle.loads, text)
     assert scene.any_hit([0, 0, 0], [0, 0, 1])
 
 
@@ -89,8 +91,9 @@ def test_a_mapped_file_may_be_deleted_or_replaced(saved):
     same_answers(mapped, scene)
     for open_it in (kdray.Scene.mmap, kdray.Scene.load, kdray.Scene.of):
         fails(kdray.MissingFileError, str(path), open_it, path)
-    with pytest.raises(FileNotFoundError):
+    with pytest.raises(FileNotFoundError) as raised:
         kdray.Scene.mmap(path)
+    assert raised.value.errno == errno.ENOENT
 
 
 def test_damaged_files(saved):
@@ -136,6 +139,10 @@ def test_mesh_files(tmp_path):
 def test_bad_mesh_files(tmp_path):
     missing = tmp_path / "none.ply"
     fails(kdray.MissingFileError, str(missing), kdray.Scene.of, missing)
+    hollow = tmp_path / "hollow.gltf"
+    buffer = {"uri": "not_there.bin", "byteLength": 4}
+    hollow.write_text(json.dumps({"asset": {"version": "2.0"}, "buffers": [buffer]}))
+    fails(kdray.MissingFileError, str(hollow), kdray.Scene.of, hollow)
     (tmp_path / "what").write_bytes(b"nothing known")
     fails(kdray.FileError, str(tmp_path / "what"), kdray.Scene.of, tmp_path / "what")
     holed = write_obj(tmp_path / "holed.obj", faces=np.vstack([CUBE_FACES, [[0, 1, 99]]]))

@@ -30,6 +30,19 @@ def test_the_same_seed_gives_the_same_picture(cube):
     assert not np.array_equal(*others)
 
 
+def test_up_turns_frame_and_sky():
+    boxes = np.concatenate([CUBE_VERTICES * [1, 2, 3], CUBE_VERTICES * [1, 1, 1] + [2, 0, 0]]).astype(np.float32)
+    faces = np.concatenate([CUBE_FACES, CUBE_FACES + 8])
+    look = {**SMALL, "ambient_rays": 0}
+    upright = kdray.Scene(boxes, faces).render(**look)
+    turned = np.stack([boxes[:, 0], -boxes[:, 2], boxes[:, 1]], axis=1)
+    picture = kdray.Scene(turned, faces).render(**look, up=[0, 0, 1])
+    assert np.mean(np.abs(picture.astype(int) - upright) > 2) < 0.01
+    wide = {"eye": [9, 0, 0], "look_at": [30, 0, 0], "fov": 90}
+    red = kdray.Scene(boxes, faces).render(**look, **wide, up=[0, 0, 1]).layers["color.R"]
+    assert np.all(np.diff(red[:16], axis=0) > 0) and np.ptp(red[16:]) == 0
+
+
 def test_rays_of_a_picture_are_those_of_queries(cube):
     view = {"eye": [0.5, 0.4, 5], "look_at": [0.5, 0.4, 0], "up": [0, 1, 0], "fov": 20}
     depth = cube.render(**SMALL, **view, picture="depth").layers["depth.Z"]

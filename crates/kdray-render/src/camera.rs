@@ -1,10 +1,9 @@
 //! From a pixel to a ray, and a camera for scenes without one.
 
-use glam::{DMat3, DQuat, DVec3};
+use glam::{DQuat, DVec3};
 use kdray::geometry::Common;
 use kdray::{Aabb, Ray};
 use kdray_scene::{Camera, Projection};
-use std::f64::consts::PI;
 use thiserror::Error;
 
 /// The y axis, which is up where nothing else is said.
@@ -114,18 +113,21 @@ fn half_height(projection: Projection) -> Result<f64, CameraError> {
 
 /// A camera that shows everything in `bounds`: from the front, right and above, just far enough that the
 /// box's corners are in a picture `aspect` times as wide as high. An empty box is taken for the unit cube
-/// around the origin. Above is where `up` points, any vector: [`Y_UP`], where +x is right and +z in front, or
-/// else turned from there the shortest way; with z up, -y is in front.
+/// around the origin.
+///
+/// Above is where `up` points, of any length. With [`Y_UP`], +x is to the right and +z in front; another `up`
+/// turns both as it takes the shortest way from there: with z up, -y is in front. An `up` that has no direction gives
+/// a camera that cannot be used ([`CameraError::NoUp`], [`CameraError::NotFinite`]).
 pub fn frame(bounds: &Aabb<3>, up: [f64; 3], aspect: f64) -> Camera {
     let (center, half) = if bounds.is_empty() {
         (DVec3::ZERO, DVec3::splat(0.5))
     } else {
         (DVec3::from(bounds.center()), DVec3::from(bounds.extent()) / 2.0)
     };
-    let turned = turn_from_y(up);
-    let backward = turned * DVec3::new(0.55, 0.42, 1.0).normalize();
-    let right = (turned * DVec3::Y).cross(backward).normalize();
-    let upward = backward.cross(right);
+    let turn = turn_from_y(up);
+    let backward = DVec3::new(0.55, 0.42, 1.0).normalize();
+    let right = DVec3::Y.cross(backward).normalize();
+    let [backward, right, upward] = [backward, right, backward.cross(right)].map(|it| turn * it);
     let tan_y = (FRAME_VFOV_DEGREES.to_radians() / 2.0).tan() * FRAME_FILL;
     let tan_x = tan_y * if aspect.is_finite() && aspect > 0.0 { aspect } else { 1.0 };
     let mut distance = 0.0_f64;
@@ -146,11 +148,8 @@ pub fn frame(bounds: &Aabb<3>, up: [f64; 3], aspect: f64) -> Camera {
     }
 }
 
-/// The rotation that takes the y axis to `up` the shortest way; none for a vector without direction.
-fn turn_from_y(up: [f64; 3]) -> DMat3 {
-    match DVec3::from(up).try_normalize() {
-        Some(up) if up == DVec3::NEG_Y => DMat3::from_rotation_x(PI),
-        Some(up) => DMat3::from_quat(DQuat::from_rotation_arc(DVec3::Y, up)),
-        None => DMat3::IDENTITY,
-    }
+/// The rotation that takes the y axis to `up` the shortest way; the identity if that has no direction.
+fn turn_from_y(up: [f64; 3]) -> DQuat {
+    let up = DVec3::from(up).try_normalize();
+    up.map_or(DQuat::IDENTITY, |up| DQuat::from_rotation_arc(DVec3::Y, up))
 }

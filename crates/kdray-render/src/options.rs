@@ -43,11 +43,11 @@ pub enum Background {
     Color([f32; 3]),
     /// A sky: `horizon` below and at the horizon, blending to `zenith` overhead.
     Gradient {
-        /// The colour of directions that do not point upward.
+        /// The colour of directions at or below the horizon.
         horizon: [f32; 3],
         /// The colour of `up`.
         zenith: [f32; 3],
-        /// Where overhead is, of any length: [`Y_UP`](crate::Y_UP), or else what is up in the scene.
+        /// The direction overhead, such as [`Y_UP`](crate::Y_UP), of any length but zero.
         up: [f64; 3],
     },
 }

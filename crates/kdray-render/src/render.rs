@@ -130,6 +130,7 @@ pub fn render_with_progress(
     if width == 0 || height == 0 {
         return Err(RenderError::EmptyPicture { width, height });
     }
+    // Before the options: of a vector that is up for both, the camera has the clearer complaint.
     let view = View::new(camera, width as f64 / height as f64)?;
     check(options)?;
     let lamps = if lights.is_empty() {
@@ -179,10 +180,11 @@ fn check_part(options: &RenderOptions) -> Result<(), RenderError> {
     }
 }
 
+/// Refuses a sky that has no middle.
 fn check_sky(background: &Background) -> Result<(), RenderError> {
     match background {
         Background::Gradient { up, .. } if DVec3::from(*up).try_normalize().is_none() => {
-            let (option, must) = ("background", "a sky whose `up` has a direction");
+            let (option, must) = ("background", "one colour, or a sky whose `up` has a direction");
             Err(RenderError::Option { option, must })
         }
         _ => Ok(()),

@@ -177,7 +177,7 @@ fn an_interior_without_lights_is_not_dark() {
         look_at: [0.0, 1.5, 0.0],
         ..from_above(0.0, 0.0, 3.0)
     };
-    let camera = kdray_scene::Camera { up: [0.0, 1.0, 0.0], ..camera };
+    let camera = kdray_scene::Camera { up: Y_UP, ..camera };
     let picture = shoot(&world, &camera, &[], &plain(8, 8, 1));
     let green = picture.floats("color", "G").unwrap();
     let [darkest, brightest] =
@@ -217,11 +217,16 @@ fn what_cannot_be_rendered_is_refused() {
         refused(&camera, &lights, &none),
         RenderError::Option { option: "samples", .. }
     ));
-    let nowhere = RenderOptions { background: Background::sky([0.0; 3]), ..options };
-    assert!(matches!(
-        refused(&camera, &lights, &nowhere),
-        RenderError::Option { option: "background", .. }
-    ));
+    for up in [[0.0; 3], [f64::NAN, 0.0, 1.0], [f64::INFINITY; 3]] {
+        let nowhere = RenderOptions { background: Background::sky(up), ..options.clone() };
+        assert!(matches!(
+            refused(&camera, &lights, &nowhere),
+            RenderError::Option { option: "background", .. }
+        ));
+        let blind = kdray_render::frame(world.bounds(), up, 1.0);
+        let error = refused(&blind, &lights, &nowhere);
+        assert!(matches!(error, RenderError::Camera(_)), "{error}");
+    }
 }
 
 #[test]

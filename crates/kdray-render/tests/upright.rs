@@ -4,16 +4,19 @@
 
 mod support;
 
-use kdray_render::{Background, Picture, PictureKind, RenderOptions, Y_UP, frame};
+use glam::DVec3;
+use kdray::Aabb;
+use kdray_render::{Background, Picture, PictureKind, RenderOptions, View, Y_UP, frame};
 use kdray_scene::{Camera, Model};
 use support::*;
 
-/// Every way in which a rotation by quarters can take +y, and the rotation.
+/// Rotations by quarters, and where each takes +y.
 type Turn = fn([f32; 3]) -> [f32; 3];
-const TURNS: [([f64; 3], Turn); 3] = [
+const TURNS: [([f64; 3], Turn); 4] = [
     ([0.0, 0.0, 2.5], |[x, y, z]| [x, -z, y]),
+    ([0.0, 0.0, -1.0], |[x, y, z]| [x, z, -y]),
     ([-1e-9, 0.0, 0.0], |[x, y, z]| [-y, x, z]),
-    ([0.0, -1e9, 0.0], |[x, y, z]| [x, -y, -z]),
+    ([0.0, -1e9, 0.0], |[x, y, z]| [-x, -y, z]),
 ];
 
 /// Two boxes on a floor, turned; seen by a camera that frames them, under the sky.
@@ -50,24 +53,54 @@ fn a_turned_scene_under_a_turned_sky_gives_the_same_picture() {
 }
 
 #[test]
+fn a_frame_holds_the_scene_upright_whatever_is_up() {
+    let bounds = Aabb { min: [-1.0, 2.0, -3.0], max: [4.0, 2.5, 5.0] };
+    for up in [Y_UP, [1.0, 2.0, -0.5], [3.0, 0.0, 0.0], [1e-9, -1.0, 0.0], [0.0, -1.0, 2e-16]] {
+        let camera = frame(&bounds, up, 1.5);
+        let view = View::new(&camera, 1.5).unwrap();
+        let [eye, middle, up] = [camera.eye, bounds.center().map(f64::from), up].map(DVec3::from);
+        assert!((eye - middle).dot(up) > 0.0, "{up}: from above");
+        let [forward, right, upward] = [[0.5, 0.5], [1.0, 0.5], [0.5, 0.0]]
+            .map(|[x, y]| DVec3::from(view.ray(x, y).direction));
+        let axis = |edge: DVec3| edge / edge.dot(forward) - forward;
+        let (right, upward) = (axis(right), axis(upward));
+        for corner in 0..8 {
+            let side = |k: usize| if corner >> k & 1 == 0 { bounds.min[k] } else { bounds.max[k] };
+            let way = DVec3::from([0, 1, 2].map(|k| f64::from(side(k)))) - eye;
+            let at = way / way.dot(forward);
+            for axis in [right, upward] {
+                let place = at.dot(axis) / axis.length_squared();
+                assert!(place.abs() < 1.0, "{up}: corner {corner} is at {place}");
+            }
+        }
+    }
+}
+
+#[test]
 fn the_sky_is_deepest_where_up_points() {
     let world = world(Model::default());
-    let seen = |direction: [f64; 3], up: [f64; 3]| {
+    let seen = |direction: DVec3, up: DVec3| {
         let camera = Camera {
             eye: [0.0; 3],
-            look_at: direction,
+            look_at: direction.into(),
             up: [0.3, 0.2, 0.1],
             ..from_above(0.0, 0.0, 1e-9)
         };
-        let options = RenderOptions { background: Background::sky(up), ..plain(1, 1, 1) };
+        let options = RenderOptions { background: Background::sky(up.into()), ..plain(1, 1, 1) };
         shoot(&world, &camera, &[], &options).floats("color", "R").unwrap()[0]
     };
     let (zenith, horizon) = (0.14, 0.82);
-    for up in [Y_UP, [0.0, 0.0, 7.0], [-2.0, 1.0, 2.0]] {
-        assert_eq!(seen(up.map(|x| -x), up), horizon);
-        let across = [up[1], -up[0], 0.0];
-        let across = if across == [0.0; 3] { [1.0, 0.0, 0.0] } else { across };
-        assert!((seen(up, up) - zenith).abs() < 1e-6);
-        assert!((seen(across, up) - horizon).abs() < 1e-6);
+    for up in [Y_UP, [0.0, 0.0, 7.0], [-2.0, 1.0, 2.0], [1e-3, 1e-2, 0.0]].map(DVec3::from) {
+        let overhead = up.normalize();
+        let across = overhead.any_orthonormal_vector();
+        // What share of the zenith's colour each has, by the sine of its height.
+        for (sine, share) in
+            [(1.0_f64, 1.0), (0.5, 0.5_f32.sqrt()), (0.09, 0.3), (0.0, 0.0), (-0.5, 0.0)]
+        {
+            let direction = sine * overhead + (1.0 - sine * sine).sqrt() * across;
+            let expected = horizon + share * (zenith - horizon);
+            let found = seen(direction, up);
+            assert!((found - expected).abs() < 1e-5, "{up}, {sine}: {found}, not {expected}");
+        }
     }
 }

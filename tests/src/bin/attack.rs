@@ -80,15 +80,13 @@ fn number<T: std::str::FromStr>(arguments: &Arguments, option: &str) -> Option<T
     arguments.value(option).and_then(|value| value.parse().ok())
 }
 
-/// The targets of the precision that is given, whose names contain one of those given; scenes of at most so many
+/// The targets of the precisions that are given, whose names contain one of those given; scenes of at most so many
 /// triangles.
 fn chosen(arguments: &Arguments, most: usize) -> Result<Vec<AnyTarget>, String> {
     let scenes = if most > 0 { targets::of_scenes(most) } else { Vec::new() };
     let mut targets = [targets::made(), scenes].concat();
     arguments.check_names("--precision", ["f32", "f64"], |asked, name| asked == name)?;
-    if let Some(precisions) = arguments.value("--precision") {
-        targets.retain(|target| precisions.split(',').any(|asked| asked == target.precision()));
-    }
+    targets.retain(|target| arguments.chosen("--precision", target.precision()));
     let is_meant = |asked: &str, name: &str| name.contains(asked);
     arguments.check_names("--targets", targets.iter().map(AnyTarget::name), is_meant)?;
     if let Some(names) = arguments.value("--targets") {

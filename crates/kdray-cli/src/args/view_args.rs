@@ -19,8 +19,8 @@ pub(crate) struct ViewArgs {
     /// The point in the middle of the picture
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = numbers::<3>)]
     pub(crate) look_at: Option<[f64; 3]>,
-    /// What points up in the picture, and to the middle of the sky; without it the camera's, and the
-    /// y axis
+    /// What points up in the picture, and from the horizon of a sky to where it is deepest; a camera
+    /// that frames the scene looks from above accordingly. Without it what the camera says, and +y
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = numbers::<3>)]
     pub(crate) up: Option<[f64; 3]>,
     /// The angle between the lower and the upper edge of the picture, below 180; without it the
@@ -48,7 +48,7 @@ impl ViewArgs {
             Some(name) => named_camera(model, name)?.clone(),
             None => match model.cameras.first() {
                 Some(camera) => camera.clone(),
-                None => frame(bounds, self.up.unwrap_or(Y_UP), self.aspect()),
+                None => frame(bounds, self.upward(), self.aspect()),
             },
         };
         camera.eye = self.eye.unwrap_or(camera.eye);
@@ -62,7 +62,12 @@ impl ViewArgs {
 
     /// The sky over the scene.
     pub(crate) fn sky(&self) -> Background {
-        Background::sky(self.up.unwrap_or(Y_UP))
+        Background::sky(self.upward())
+    }
+
+    /// What is up in the scene, whatever its cameras say.
+    fn upward(&self) -> [f64; 3] {
+        self.up.unwrap_or(Y_UP)
     }
 
     /// The scene's lights and those of the arguments.

@@ -11,7 +11,7 @@ use crate::{
         LineColor, PictureFile, Section, Slice, Wireframe, draw_slice, draw_wireframe, scene_name,
     },
     progress,
-    wording::readable,
+    wording::{counted, readable},
 };
 use kdray_render::World;
 use std::path::{Path, PathBuf};
@@ -122,9 +122,10 @@ fn write_slice(
         )));
     };
     file.write(canvas, 1.0)?;
-    let (cells, triangles) = (figures.cells, figures.triangles);
+    let cells = counted(figures.cells, "cell", "cells");
+    let triangles = counted(figures.triangles, "cut triangle", "cut triangles");
     let out = args.out.display();
-    progress::say(globals, &format!("drew {cells} cells and {triangles} cut triangles: {out}"));
+    progress::say(globals, &format!("drew {cells} and {triangles}: {out}"));
     Ok(())
 }
 

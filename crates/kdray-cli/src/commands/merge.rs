@@ -8,6 +8,7 @@ use crate::{
     output::Output,
     picture_file::{Format, write},
     progress::Progress,
+    wording::counted,
 };
 use kdray_render::{Merge, MergeError, Picture, PngDepth};
 use std::{
@@ -59,8 +60,8 @@ pub(crate) fn run(args: &Args, globals: &Globals) -> Result<(), CliError> {
     output.commit()?;
     let took = progress.elapsed();
     progress.finish(&format!(
-        "merged {} parts into {} in {took:.2?}: {}",
-        args.parts.len(),
+        "merged {} into {} in {took:.2?}: {}",
+        counted(args.parts.len(), "part", "parts"),
         described(&picture),
         args.out.display()
     ));

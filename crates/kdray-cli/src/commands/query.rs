@@ -11,6 +11,7 @@ use crate::{
         Answer, Answerer, HitWriter, HitsFormat, Mode, Row, RowReader, Summary, answer_points,
     },
     tree_file::{self, Trust},
+    wording::counted,
 };
 use clap::ValueEnum;
 use kdray::Scene;
@@ -182,8 +183,9 @@ fn finish<R: Row>(args: &Args, globals: &Globals, summary: &Summary, progress: P
     let Summary { rows, hitting, .. } = *summary;
     let rate = rows as f64 / took.as_secs_f64().max(1e-9) / 1e6;
     let (out, many, hit) = (args.out.display(), R::MANY, R::HIT);
+    let rows = counted(rows, R::ONE, many);
     progress.finish(&format!(
-        "answered {rows} {many}, {hitting} of which {hit}, in {took:.2?} ({rate:.3} M{many}/s): {out}"
+        "answered {rows}, {hitting} of which {hit}, in {took:.2?} ({rate:.3} M{many}/s): {out}"
     ));
     if let Some(warning) = summary.warning::<R>() {
         progress::say(globals, &format!("warning: {warning}"));

@@ -76,9 +76,9 @@ fn tell(checked: Result<(), CliError>, scene: &ShapeScene, args: &Args) -> Resul
         let error = checked.as_ref().err().map(reason);
         print_json(&Finding { valid: checked.is_ok(), error, triangles, nodes })?;
     } else if checked.is_ok() {
-        let nodes = counted(nodes, "node", "nodes");
-        let triangles = counted(triangles, "triangle", "triangles");
-        let line = format!("the tree is valid: {nodes} over {triangles}\n");
+        let of = counted(nodes, "node", "nodes");
+        let over = counted(triangles, "triangle", "triangles");
+        let line = format!("the tree is valid: {of} over {over}\n");
         output::print(line.as_bytes())?;
     }
     checked

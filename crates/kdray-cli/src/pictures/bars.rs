@@ -3,6 +3,7 @@
 use super::canvas::{Anchor, Canvas, Point, Stroke, line, rectangle, text_width};
 use super::legend::{self, Entry};
 use super::palette;
+use crate::wording::three_digits;
 
 /// One chart: for every contender one bar of each series.
 pub(crate) struct Bars {
@@ -98,16 +99,6 @@ fn draw_bar(canvas: &mut Canvas, [x, y]: Point, value: Option<f64>, scale: f64, 
     debug_assert!(text_width(11.5, &text) < VALUES);
 }
 
-/// A number in three digits.
-pub(crate) fn three_digits(value: f64) -> String {
-    let magnitude = if value == 0.0 { 0.0 } else { value.abs().log10().floor() };
-    if !(-4.0..7.0).contains(&magnitude) {
-        return format!("{value:.1e}");
-    }
-    let decimals = (2.0 - magnitude).max(0.0) as usize;
-    format!("{value:.decimals$}")
-}
-
 fn legend(charts: &[Bars]) -> Vec<Vec<Entry>> {
     let Some(chart) = charts.iter().find(|chart| chart.series.len() > 1) else { return Vec::new() };
     let entries = chart.series.iter().zip(COLORS);
@@ -133,13 +124,5 @@ mod tests {
             .collect();
         assert_eq!(widths.len(), 3);
         assert!(widths[2] > 100.0 && widths[0] * 2.0 == widths[2] && widths[1] == 0.0);
-    }
-
-    #[test]
-    fn values_have_three_digits() {
-        for (value, text) in [(0.0, "0.00"), (1234.5, "1234"), (0.012345, "0.0123"), (9.87, "9.87")]
-        {
-            assert_eq!(three_digits(value), text);
-        }
     }
 }

@@ -24,7 +24,7 @@ mod wireframe;
 use crate::args::SceneArgs;
 use std::path::Path;
 
-pub(crate) use bars::{Bars, Series, draw_bars, three_digits};
+pub(crate) use bars::{Bars, Series, draw_bars};
 pub(crate) use canvas::Canvas;
 pub(crate) use file::PictureFile;
 pub(crate) use frustum_path::{FrustumPath, draw_frustum_path};

@@ -1,5 +1,7 @@
 """What can go wrong. Every message names what is to blame, and says what to do."""
 
+import errno
+
 __all__ = [
     "ArgumentError",
     "ArgumentTypeError",
@@ -38,18 +40,20 @@ class UnsupportedError(KdrayError, NotImplementedError):
 
 
 class FileError(KdrayError, OSError):
-    """A file is not there any more, has changed, or is none that can be used."""
+    """A file cannot be read or written, has changed, or is none that can be used."""
 
 
 class MissingFileError(FileError, FileNotFoundError):
-    """A file is not there, or the folder that it is to be written to."""
+    """A file is not there, or one that it needs, or the folder that it is to be written to."""
+
+    errno = errno.ENOENT
+
+
+class InternalError(KdrayError, RuntimeError):
+    """A mistake in kdray itself."""
 
 
 def about_file(path: str, error: OSError) -> FileError:
     """What the system says about a file, as an error of kdray."""
     kind = MissingFileError if isinstance(error, FileNotFoundError) else FileError
     return kind(f"{path}: {error.strerror}")
-
-
-class InternalError(KdrayError, RuntimeError):
-    """A mistake in kdray itself."""

@@ -68,8 +68,8 @@ class Rendering:
 
         ``eye``, ``look_at``, ``up``, ``fov``
             The observer, the point in the middle, what points up, and the angle between the lower and the upper edge
-            in degrees; without them the file's first camera, or one that frames the scene. Where ``up`` points, the
-            sky has its middle.
+            in degrees; without them the file's first camera, or one that frames the scene.
+            ``up`` also says where above is for the camera that frames the scene, and for the sky: +y otherwise.
         ``camera``
             A camera of the file, by its name or its number.
         ``light``

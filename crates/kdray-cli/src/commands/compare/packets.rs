@@ -9,6 +9,7 @@ use crate::{
     pictures::scene_name,
     progress::Progress,
     table::{columns, print_json},
+    wording::counted,
 };
 use kdray::{
     Hit, Ray, ShapeScene, Strategy,
@@ -94,7 +95,8 @@ fn contenders(scene: &ShapeScene, rays: &[Ray], globals: &Globals) -> Result<Vec
         entries.push(Entry::packets(kind, size, &counters, rays.len()));
     }
     let took = progress.elapsed();
-    progress.finish(&format!("counted what {} rays cost in {took:.2?}", rays.len()));
+    progress
+        .finish(&format!("counted what {} cost in {took:.2?}", counted(rays.len(), "ray", "rays")));
     Ok(entries)
 }
 
@@ -194,14 +196,14 @@ impl Report {
         let rows = self.contenders.iter().map(Entry::row);
         let rows: Vec<Vec<String>> = std::iter::once(headings).chain(rows).collect();
         format!(
-            "{scene}: {} triangles; {} primary rays ({width} x {height} pixels)\n\n{}\n\
+            "{scene}: {}; {} ({width} x {height} pixels)\n\n{}\n\
              node decisions: at inner nodes, each for a whole packet. triangle set-ups: triangles that\n\
              got through the culling of a packet. ray tests: of one ray against one triangle. rays left:\n\
              how many in all fit no packet; what they cost alone is counted too. Rays come in tiles of\n\
              16 x 16 pixels, in these 8 x 8, in these 4 x 2.\n\
              All answers are identical.\n",
-            self.triangles,
-            width * height,
+            counted(self.triangles, "triangle", "triangles"),
+            counted(width * height, "primary ray", "primary rays"),
             columns(&rows)
         )
     }

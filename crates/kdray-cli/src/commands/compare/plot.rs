@@ -1,19 +1,24 @@
 //! The comparison as bar charts.
 
 use super::report::{PickSet, RayEntry, Report, TreeEntry};
-use crate::pictures::{Bars, Canvas, Series, draw_bars};
+use crate::{
+    pictures::{Bars, Canvas, Series, draw_bars},
+    wording::counted,
+};
 
 /// Draws a chart for each figure that matters.
 pub(super) fn draw(report: &Report, scene: &str) -> Canvas {
     let names: Vec<&str> = report.contenders.iter().map(|entry| entry.name).collect();
     let [width, height] = report.primary_grid;
-    let title = format!("{scene}: {} triangles, four ways to split", report.triangles);
+    let title = format!(
+        "{scene}: {}, four ways to split",
+        counted(report.triangles, "triangle", "triangles")
+    );
     let subtitle = format!(
-        "{width} x {height} camera rays; builds and rates on {} thread{}, rates the median of {} \
-         rounds; all answers are identical",
-        report.threads,
-        if report.threads == 1 { "" } else { "s" },
-        report.rounds,
+        "{width} x {height} camera rays; builds and rates on {}, rates the median of {}; all answers are \
+         identical",
+        counted(report.threads, "thread", "threads"),
+        counted(report.rounds, "round", "rounds"),
     );
     let tree = |title: &str, note, value: fn(&TreeEntry) -> f64| {
         let values = report.contenders.iter().map(|entry| entry.tree.as_ref().map(value)).collect();

@@ -4,7 +4,10 @@ use super::Args;
 use super::contender::{Contender, Kind};
 use super::measure::Figures;
 use super::rays::RaySets;
-use crate::{pictures::three_digits, table::columns};
+use crate::{
+    table::columns,
+    wording::{counted, three_digits},
+};
 use kdray::TriangleMesh;
 use serde::Serialize;
 
@@ -89,8 +92,8 @@ impl Report {
             sets.iter().map(|(name, set)| format!("{} {name}", set.rays)).collect()
         });
         let mut text = format!(
-            "{scene}: {} triangles; {} rays ({width} x {height} pixels)\n\n",
-            self.triangles,
+            "{scene}: {}; {} rays ({width} x {height} pixels)\n\n",
+            counted(self.triangles, "triangle", "triangles"),
             counts.join(", ")
         );
         text += &columns(&self.rows());
@@ -99,9 +102,9 @@ impl Report {
             ray that meets the box, one visit of an inner node being 1. primary: rays through pixels;\n\
             shadow: from their hits to the light, any hit; bounce: from their hits in a random direction.\n";
         text += &format!(
-            "Builds and rates: on {threads} thread{}. \
-             Rates: median of {rounds} rounds, contenders in turn.",
-            if threads == 1 { "" } else { "s" }
+            "Builds and rates: on {}. Rates: median of {}, contenders in turn.",
+            counted(threads, "thread", "threads"),
+            counted(rounds, "round", "rounds"),
         );
         text += &self.naive_note();
         text + "\nAll answers are identical.\n"

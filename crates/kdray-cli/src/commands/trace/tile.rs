@@ -13,6 +13,7 @@ use crate::{
     },
     progress,
     table::print_json,
+    wording::counted,
 };
 use glam::DVec3;
 use kdray::{
@@ -67,9 +68,9 @@ pub(super) fn run(args: &Args, pixel: (usize, usize), globals: &Globals) -> Resu
     }
     let [x, y] = tile.at;
     let title = format!(
-        "{}: packet of {} rays from pixel {x},{y}, split {}",
+        "{}: packet of {} from pixel {x},{y}, split {}",
         scene_name(&args.scene),
-        rays.len(),
+        counted(rays.len(), "ray", "rays"),
         args.build.split.name()
     );
     let ray = super::ray_through(&view, args, pixel);
