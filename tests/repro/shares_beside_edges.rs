@@ -35,3 +35,15 @@ fn a_point_beside_the_diagonal_of_an_open_cube_is_inside() {
     assert!((scene.winding_number(point) - 0.936).abs() < 0.01, "{}", scene.winding_number(point));
     assert!(scene.contains(point));
 }
+
+#[test]
+fn beside_a_sliver_it_is_the_closest_edge_that_counts() {
+    let point = [0.06286314096281795, 1.6503363672302601e-13, -1.9750280407322104e-14];
+    let corners = [
+        [0.0; 3],
+        [1.0, 0.0, 0.0],
+        [0.6387059092521667, 1.6767847960813542e-12, -2.0066800055385664e-13],
+    ];
+    // By an arithmetic of 120 digits.
+    assert!((solid_angle(point, corners).abs() - 0.49931).abs() < 1e-4);
+}

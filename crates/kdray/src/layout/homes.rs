@@ -111,7 +111,8 @@ mod tests {
     fn what_reaches_into_a_cell_is_listed_below_its_node() {
         let mesh = soup(2000);
         let few = BuildOptions { leaf_size: 100, ..BuildOptions::preset(Preset::Best) };
-        for options in [BuildOptions::preset(Preset::Fast), few] {
+        let one = BuildOptions { leaf_size: usize::MAX, ..few };
+        for options in [BuildOptions::preset(Preset::Fast), few, one] {
             let tree = wide(&mesh, &options);
             for home in tree.homes.list().iter() {
                 let ids = below(&tree, home.link());

@@ -175,7 +175,7 @@ impl<T: Coordinate> Verifier<'_, T> {
         let number = self.verify_home(link, &stand.site)?;
         for (place, ids) in parts.enumerate() {
             let bounds = self.child_box(link, place, &stand.bounds)?;
-            let site = Site { cell: stand.site.cell, parent: number, place };
+            let site = Site { cell: Aabb::EMPTY, parent: number, place };
             let child = Link::from_bits(node.links()[place]);
             let part = Stand { site, bounds, ..*stand };
             self.verify_leaf(child, ids, &part, link)?;

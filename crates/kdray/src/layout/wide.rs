@@ -218,7 +218,8 @@ impl<T: Coordinate> Placer<'_, T> {
         let mut node = WideNode::EMPTY;
         let mut stack = 0;
         for (place, ids) in ids.chunks(part).enumerate() {
-            let site = Site { cell: site.cell, parent: node_room.home, place };
+            // None, for not all that lies in the leaf's cell is below this part.
+            let site = Site { cell: Aabb::EMPTY, parent: node_room.home, place };
             let child = self.place_leaf(ids, &site, bounds, room);
             node.set_child(place, bounds, child.link);
             stack = stack.max(child.stack);

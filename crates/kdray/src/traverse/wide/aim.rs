@@ -16,6 +16,10 @@ const LARGEST_COMPONENT: f64 = (1 << 16) as f64;
 /// largest component may be.
 const LEAST_COMPONENT: f32 = 1.0 / (1_u64 << 56) as f32;
 
+/// What M counts as at least in error bounds, 2^-90. From nearer to a corner, or for a t as near to zero, numbers lose
+/// 2^-150 to underflow, which m and n and a direction of up to 2^18 are multiplied by; and so do the bounds themselves.
+const LEAST_DISTANCE: f64 = 1.0 / (1_u128 << 90) as f64;
+
 /// A ray in f32: the direction scaled by a power of two if it is very long or very short, the origin
 /// moved along the ray into the tree's reach if it is far away. Fourth components mean nothing.
 #[derive(Clone, Copy, Debug)]
@@ -41,7 +45,7 @@ pub(crate) struct Aim {
     /// 2^-16 of the way by which the origin was moved.
     blur: f32,
     /// What the distance from the origin counts as at least in error bounds, because the true
-    /// origin is not an f32: 2^23 times the difference.
+    /// origin is not an f32: 2^23 times the difference; and because of underflow.
     pub(super) least_distance: f32,
     /// The kernels' t is `scale · t − shift`.
     scale: f64,
@@ -147,7 +151,8 @@ impl Aim {
         let length = x + y + z;
         (self.edge_rate, self.t_rate) = (EDGE_ERROR * length, T_ERROR * length);
         self.blur = (shift.abs() * (1.0 / (1 << 16) as f64)) as f32;
-        self.least_distance = ((off + moving) * (0.5 / f64::from(ROUNDING))) as f32;
+        let least_distance = (off + moving) * (0.5 / f64::from(ROUNDING));
+        self.least_distance = larger(least_distance, LEAST_DISTANCE) as f32;
         (self.scale, self.shift) = (scale, shift);
         self.t_near = (t_near - t_near.abs() * F32_SLACK) as f32;
         self.near_rate = self.rate_at(self.t_near);

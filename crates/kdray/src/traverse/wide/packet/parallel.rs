@@ -18,8 +18,10 @@ const EDGE_ERROR: f32 = 128.0 * ROUNDING;
 const DEPTH_ERROR: f32 = 32.0 * ROUNDING;
 const SIZE_ERROR: f32 = 4.0 * ROUNDING;
 const LEAST_DEN: f32 = 1.0 / (1 << 22) as f32;
-/// Coordinates and ways beyond this do not take part; an end of a ray beyond it counts as here.
+/// Coordinates beyond this do not take part.
 const FARTHEST: f32 = (1_u64 << 60) as f32;
+/// An end of a ray that is as far along z counts as here, which is beyond all that takes part.
+const LONGEST: f32 = FARTHEST * (1 << 20) as f32;
 
 /// The packet's centre is the origin of one of its rays.
 #[derive(Clone, Copy)]
@@ -153,9 +155,10 @@ impl Projection for Parallel {
     #[inline(always)]
     fn points<S: Lanes>(&self, simd: S, local: [f32x8<S>; 3], ends: &Ends<S>) -> Points<S> {
         let [x, y] = self.project(local);
-        let most = f32x8::splat(simd, FARTHEST);
-        let w = |t: f32x8<S>| t.min(most).mul_add(f32x8::splat(simd, -self.pace), -local[2]);
-        let off = |t: f32x8<S>| t.min(most).mul_add(f32x8::splat(simd, self.pace), local[2].abs());
+        // Not t is bounded, for as t grows by one z may grow by very little.
+        let way = |t: f32x8<S>| (t * self.pace).min(f32x8::splat(simd, LONGEST));
+        let w = |t: f32x8<S>| -way(t) - local[2];
+        let off = |t: f32x8<S>| way(t) + local[2].abs();
         let (a, b) = (ends.begin, ends.end);
         let fits = local[0].abs().simd_lt(FARTHEST)
             & local[1].abs().simd_lt(FARTHEST)

@@ -28,22 +28,33 @@ pub(super) struct Perspective {
     /// What the distance of triangles counts as at least in error bounds, because rays pass the centre at
     /// up to 2^-24 of that.
     blur: f32,
+    /// What it counts as at least where the side is to be known on which the centre lies, because a hit may be
+    /// reported before the centre that lies behind it.
+    least_distance: f32,
 }
 
 /// Rays to a target pass it at up to 2^-52 of their length: 2^24 times that.
 const BLUR: f32 = 1.0 / (1 << 28) as f32;
 
+/// The t of a hit at a target may be off by 2^-39, so that T seen from there is off by six times that, by ē² and the
+/// length of the ray: less than [`LEAST_VOLUME`] by this.
+const TARGET_BLUR: f32 = 1.0 / (1 << 13) as f32;
+
+/// Normals and depths of triangles that are good are above and below this: others lose digits, or are infinite.
+const LEAST_NORMAL: f32 = 1.0 / MOST_DEPTH;
+const MOST_DEPTH: f32 = (1_u128 << 100) as f32;
+
 impl Perspective {
     /// Of rays that begin at the centre.
     #[inline(always)]
     pub(super) fn of_origin(frame: Frame) -> Self {
-        Self { frame, blur: 0.0 }
+        Self { frame, blur: 0.0, least_distance: 0.0 }
     }
 
     /// Of rays that go to it, from as far away as that.
     #[inline(always)]
     pub(super) fn of_target(frame: Frame, farthest: f32) -> Self {
-        Self { frame, blur: farthest * BLUR }
+        Self { frame, blur: farthest * BLUR, least_distance: farthest * TARGET_BLUR }
     }
 }
 
@@ -61,7 +72,7 @@ impl Projection for Perspective {
     /// less than 80 u ē (ē + M) D.
     ///
     /// n and T are made in f64. Where |T| is above 2^-22 ē² M it is good to 2 u, and n / T to 5 u of its
-    /// largest coordinate; so w is off by 12 u of that times D.
+    /// largest coordinate, unless that or n is out of f32's range, or nearly; so w is off by 12 u of that times D.
     #[inline(always)]
     fn forms<S: Lanes>(&self, simd: S, block: &TriangleBlock, bounds: &Bounds) -> Forms<S> {
         let all = |x: f32| f32x8::splat(simd, x);
@@ -85,8 +96,10 @@ impl Projection for Perspective {
         let distance = largest(s).max(all(ROUNDING * frame.distance() + self.blur));
         let edge_error =
             (edge * (edge + distance)).mul_add(all(EDGE_ERROR * spread), all(UNDERFLOW));
-        let least = (edge * edge * distance).mul_add(all(LEAST_VOLUME), all(UNDERFLOW));
-        let good = volume.abs().simd_gt(least);
+        let least = edge * edge * distance.max(all(self.least_distance));
+        let good = volume.abs().simd_gt(least.mul_add(all(LEAST_VOLUME), all(UNDERFLOW)))
+            & largest(n).simd_gt(LEAST_NORMAL)
+            & largest(depth).simd_lt(MOST_DEPTH);
         let depth_error = largest(depth) * all(DEPTH_ERROR * spread);
         Forms { edges, depth, edge_error, depth_error, good, present }
     }
