@@ -1,13 +1,17 @@
 //! How large a triangle looks from a point.
 
-use super::range::in_range;
-use crate::exact::{cross_component, side_of_plane};
+use crate::exact::{Scaled, cross_component, side_of_plane};
+use crate::geometry::inverse_power_of_two;
 use glam::DVec3;
 use std::cmp::Ordering;
 use std::f64::consts::PI;
+use std::ops::Range;
 
-/// Products of three shorter lengths may underflow.
-const LEAST: f64 = 1e-100;
+/// Products of three shorter or longer lengths may under- or overflow; of these, the squares.
+const SQUARES: Range<f64> = 1e-200..1e200;
+
+/// From here on a quarter of a way stands for it: 2^1000.
+const LONGEST: f64 = f64::from_bits((1023 + 1000) << 52);
 
 /// Beside an edge, where numerator and denominator of the tangent are smaller than this, in units of the product of
 /// the lengths that each is made of, they have lost too many digits: they are off by some 2^-50 of it.
@@ -21,11 +25,11 @@ const BESIDE_EDGE: f64 = 1.0 / (1_u64 << 20) as f64;
 /// the plane exactly, for the side that the point is on is decided without rounding. So it is close to an edge, where
 /// all shares meet. Farther away it goes through zero without a leap, and in the plane may be off by rounding, either way.
 pub fn solid_angle(point: [f64; 3], corners: [[f64; 3]; 3]) -> f64 {
-    let ([p, places @ ..], _) = in_range([point, corners[0], corners[1], corners[2]]);
-    let mut ways = places.map(|place| place - p);
-    if ways.iter().any(|way| way.length_squared() < LEAST * LEAST) {
+    let mut ways = corners.map(|corner| way(point, corner));
+    let in_range = |way: &DVec3| SQUARES.contains(&way.length_squared());
+    if !ways.iter().all(in_range) {
         // How far away corners are does not matter.
-        ways = ways.map(unit);
+        ways = ways.map(|way| scaled(way).0.normalize_or_zero());
     }
     let [a, b, c] = ways;
     let (la, lb, lc) = (a.length(), b.length(), c.length());
@@ -33,7 +37,7 @@ pub fn solid_angle(point: [f64; 3], corners: [[f64; 3]; 3]) -> f64 {
     let product = la * lb * lc;
     let below = product + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
     let is_beside_edge = volume.abs().max(below.abs()) < BESIDE_EDGE * product;
-    let share = if is_beside_edge { beside_edge(p, places) } else { share(volume, below) };
+    let share = if is_beside_edge { beside_edge(point, corners) } else { share(volume, below) };
     if below > BESIDE_EDGE * product {
         return share;
     }
@@ -42,6 +46,20 @@ pub fn solid_angle(point: [f64; 3], corners: [[f64; 3]; 3]) -> f64 {
         Ordering::Less => share.abs(),
         Ordering::Greater => -share.abs(),
     }
+}
+
+/// The way from one point to another, or a quarter of it if it may be too long.
+fn way(from: [f64; 3], to: [f64; 3]) -> DVec3 {
+    let (from, to) = (DVec3::from(from), DVec3::from(to));
+    let way = to - from;
+    if way.abs().max_element() < LONGEST { way } else { 0.25 * to - 0.25 * from }
+}
+
+/// A vector times a power of two, by which its largest component is one to two, or for the smallest numbers less;
+/// and that power.
+fn scaled(way: DVec3) -> (DVec3, f64) {
+    let factor = inverse_power_of_two(way.abs().max_element());
+    (way * factor, factor)
 }
 
 /// Half the angle, over pi, from what its tangent is the quotient of. A quarter of the sphere is covered where
@@ -55,34 +73,65 @@ fn share(volume: f64, below: f64) -> f64 {
 ///
 /// Seen from there, the ends of that edge are a and b in nearly opposite directions, of length one here like c. What
 /// is small in both is m = a x b, and that is known without rounding from the corners as they are. With e = b − a it is
-/// a + b = 2·(e x m) / |e|², so that below = (m · m + c · (e x m)) / (1 − a · b).
+/// a + b = 2·(e x m) / |e|², so that below = (m · m + c · (e x m)) / (1 − a · b). Of several edges as close, in a thin
+/// triangle, the closest is taken: from another one they cancel once more.
 #[cold]
-fn beside_edge(p: DVec3, corners: [DVec3; 3]) -> f64 {
-    let ways = corners.map(|corner| corner - p);
-    let opposite = |i: usize| unit(ways[i]).dot(unit(ways[(i + 1) % 3]));
-    let first = (0..3).min_by(|&i, &j| opposite(i).total_cmp(&opposite(j))).unwrap_or(0);
-    let [a, b, c] = [0, 1, 2].map(|i| unit(ways[(first + i) % 3]));
-    let m = cross(p, corners[first], corners[(first + 1) % 3]);
-    let below = (m.dot(m) + c.dot((b - a).cross(m))) / (1.0 - a.dot(b));
-    share(c.dot(m), below)
+fn beside_edge(point: [f64; 3], corners: [[f64; 3]; 3]) -> f64 {
+    let ends = corners.map(|corner| End::of(point, corner));
+    let edge = |i: usize| [ends[i], ends[(i + 1) % 3], ends[(i + 2) % 3]];
+    let opposite = [0, 1, 2].map(edge).into_iter().filter(|[a, b, _]| a.way.dot(b.way) < 0.0);
+    let crossed =
+        opposite.filter_map(|[a, b, c]| Some((cross(point, a, b)?, [a.way, b.way, c.way])));
+    let closest = crossed.min_by(|((_, one), _), ((_, other), _)| one.total_cmp(other));
+    // On the edge itself it is nothing.
+    closest.map_or(0.0, |((m, size), [a, b, c])| {
+        let below = (size * m.dot(m) + c.dot((b - a).cross(m))) / (1.0 - a.dot(b));
+        share(c.dot(m), below)
+    })
 }
 
-/// a x b of the directions to a and b from p, as if of length one; each component errs by some units in its last place.
-fn cross(p: DVec3, a: DVec3, b: DVec3) -> DVec3 {
-    let lengths = [a, b].map(|end| end.distance(p).max(f64::MIN_POSITIVE));
-    let [p, a, b] = [p, a, b].map(|place| place.to_array());
-    let component = |axes| {
-        let exact = cross_component(p, a, b, axes).value();
-        // The shorter one first, lest it underflow.
-        exact.divided_by(lengths[0].min(lengths[1]).into()) / lengths[0].max(lengths[1])
+/// A corner as seen from a point.
+#[derive(Clone, Copy)]
+struct End {
+    corner: [f64; 3],
+    /// The way there, made one long; zero if it is none.
+    way: DVec3,
+    /// How long that was.
+    length: Scaled,
+}
+
+impl End {
+    fn of(point: [f64; 3], corner: [f64; 3]) -> Self {
+        let is_quarter = (DVec3::from(corner) - DVec3::from(point)).abs().max_element() >= LONGEST;
+        let (way, factor) = scaled(way(point, corner));
+        let exponent = exponent_of_power_of_two(factor);
+        let length =
+            Scaled { mantissa: way.length(), exponent: 2 * i32::from(is_quarter) - exponent };
+        Self { corner, way: way.normalize_or_zero(), length }
+    }
+}
+
+/// a x b of the ways to two corners, as if of length one: a vector whose largest component is one, each of which errs by
+/// some units in its last place, and its size, which may be below the smallest f64. `None` if it is zero.
+fn cross(point: [f64; 3], a: End, b: End) -> Option<(DVec3, f64)> {
+    let lengths = Scaled {
+        mantissa: a.length.mantissa * b.length.mantissa,
+        exponent: a.length.exponent + b.length.exponent,
     };
-    DVec3::new(component((1, 2)), component((2, 0)), component((0, 1)))
+    let component = |axes| cross_component(point, a.corner, b.corner, axes).value();
+    let m = [(1, 2), (2, 0), (0, 1)].map(component);
+    let others = m.into_iter().filter(|it| it.mantissa != 0.0);
+    let abs = |it: Scaled| Scaled { mantissa: it.mantissa.abs(), ..it };
+    let by_size = |a: &Scaled, b: &Scaled| {
+        a.exponent.cmp(&b.exponent).then(a.mantissa.total_cmp(&b.mantissa))
+    };
+    let largest = others.map(abs).max_by(by_size)?;
+    Some((DVec3::from(m.map(|it| it.divided_by(largest))), largest.divided_by(lengths)))
 }
 
-/// The same direction of length one, of a vector of any length; of none, zero.
-#[cold]
-fn unit(way: DVec3) -> DVec3 {
-    (way / way.abs().max_element().max(f64::MIN_POSITIVE)).normalize_or_zero()
+/// That of a normal number that is one.
+fn exponent_of_power_of_two(power: f64) -> i32 {
+    (power.to_bits() >> 52) as i32 - 1023
 }
 
 #[cfg(test)]
@@ -120,25 +169,51 @@ mod tests {
         halves.map(|half| half.map(corner)).collect()
     }
 
-    #[test]
-    fn the_sides_of_a_cube_cover_all_or_nothing_beside_edges_too() {
-        for size in [1e-300, 1e-30, 1.0, 1e200] {
-            let cube = turned_cube(size);
-            for (edge, number) in
-                cube.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).zip(1..)
-            {
-                let share = f64::from(number) / 37.0;
+    /// A tetrahedron outward, of which the first face is thin.
+    fn on_a_sliver([a, b, c]: [[f64; 3]; 3], apex: [f64; 3]) -> Vec<[[f64; 3]; 3]> {
+        vec![[a, b, c], [a, apex, b], [b, apex, c], [c, apex, a]]
+    }
+
+    /// From beside every edge, all of a closed mesh covers the whole sphere or nothing.
+    fn assert_whole(mesh: &[[[f64; 3]; 3]], name: &str) {
+        let edges = mesh.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
+        for (edge, number) in edges.zip(1..) {
+            for share in [1e-12, 1e-3, f64::from(number) / 37.0] {
                 let middle = DVec3::from(edge[0]).lerp(edge[1].into(), share).to_array();
+                // From none to three units in the last place aside on each axis.
                 for steps in 0..64 {
-                    // From none to three units in the last place aside on each axis.
-                    let point = [0, 1, 2]
-                        .map(|k| (0..steps >> (2 * k) & 3).fold(middle[k], |x, _| x.next_up()));
-                    let sum: f64 = cube.iter().map(|&side| solid_angle(point, side)).sum();
+                    let moved =
+                        |k: usize, x: f64| (0..steps >> (2 * k) & 3).fold(x, |x, _| x.next_up());
+                    let point = [0, 1, 2].map(|k| moved(k, middle[k]));
+                    let sum: f64 = mesh.iter().map(|&side| solid_angle(point, side)).sum();
+                    let is_on = mesh.iter().any(|&side| crate::exact::is_on_triangle(point, side));
                     let off = (sum - sum.round()).abs();
-                    let is_on = cube.iter().any(|&side| crate::exact::is_on_triangle(point, side));
-                    assert!(is_on || off < 1e-5, "{size:e}, {edge:?} at {share}, {steps}: {sum}");
+                    assert!(is_on || off < 1e-5, "{name}, {edge:?} at {share}, {steps}: {sum}");
                 }
             }
+        }
+    }
+
+    #[test]
+    fn closed_meshes_cover_all_or_nothing_beside_edges_too() {
+        for size in [1e-300, 1e-170, 1e-30, 1.0, 1e200, 1e307] {
+            assert_whole(&turned_cube(size), &format!("{size:e}"));
+        }
+        let along = [[0.0; 3], [1.0, 0.0, 0.0]];
+        for thin in [1e-7, 1e-10, 1e-13] {
+            let top = [0.6387, 1.677 * thin, -0.2007 * thin].map(|x: f64| f64::from(x as f32));
+            let mesh = on_a_sliver([along[0], along[1], top], [0.3, -0.4, -0.5]);
+            assert_whole(&mesh, &format!("thin {thin:e}"));
+        }
+    }
+
+    #[test]
+    fn beside_edge_and_corner_it_is_the_share_of_the_angle() {
+        let corners = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        for distance in [1e-9, 1e-150, 1e-161, 1e-170, 1e-200, 1e-280, 1e-298] {
+            let above = 1e-20 * distance;
+            let share = solid_angle([distance, above, above], corners);
+            assert!((share + 0.375).abs() < 1e-8, "{distance:e}: {share}");
         }
     }
 
