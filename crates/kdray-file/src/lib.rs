@@ -27,10 +27,12 @@
 #![forbid(unsafe_code)]
 
 mod error;
+mod output;
 mod read;
 mod save;
 
 pub use error::TreeFileError;
+pub use output::Output;
 pub use read::{is_tree_file, load, load_any, map, map_any};
 pub use save::save;
 

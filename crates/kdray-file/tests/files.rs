@@ -162,3 +162,51 @@ fn a_long_file_without_content_takes_no_memory() -> Done {
     assert!(matches!(refused(&path), FileError::Length { found, .. } if found == 1 << 40));
     Ok(())
 }
+
+#[test]
+#[cfg(unix)]
+fn links_stay_and_so_do_permissions() -> Done {
+    use std::os::unix::fs::{PermissionsExt, symlink};
+    let (folder, scene) = saved(3);
+    let (file, link) = (folder.path().join("tree"), folder.path().join("link"));
+    fs::set_permissions(&file, fs::Permissions::from_mode(0o600))?;
+    fs::write(&file, b"older")?;
+    symlink(&file, &link)?;
+    save(&scene, &link)?;
+    assert!(fs::symlink_metadata(&link)?.is_symlink() && is_tree_file(&file)?);
+    assert_eq!(fs::metadata(&file)?.permissions().mode() & 0o777, 0o600);
+    Ok(())
+}
+
+#[test]
+#[cfg(unix)]
+fn what_must_not_be_written_to_is_left_alone() -> Done {
+    use std::os::unix::fs::PermissionsExt;
+    let (folder, scene) = saved(3);
+    let file = folder.path().join("tree");
+    fs::write(&file, b"kept")?;
+    fs::set_permissions(&file, fs::Permissions::from_mode(0o444))?;
+    assert!(matches!(save(&scene, &file), Err(TreeFileError::Io { .. })));
+    assert_eq!(fs::read(&file)?, b"kept");
+    assert!(matches!(save(&scene, folder.path()), Err(TreeFileError::Io { .. })));
+    Ok(())
+}
+
+#[test]
+#[cfg(unix)]
+fn a_pipe_stays_one() -> Done {
+    use std::os::unix::fs::FileTypeExt;
+    let (folder, scene) = saved(3);
+    let pipe = folder.path().join("pipe");
+    let made = std::process::Command::new("mkfifo").arg(&pipe).status()?;
+    assert!(made.success());
+    let reader = std::thread::spawn({
+        let pipe = pipe.clone();
+        move || fs::read(pipe)
+    });
+    save(&scene, &pipe)?;
+    let read = reader.join().expect("the reader ends")?;
+    assert_eq!(read, fs::read(folder.path().join("tree"))?);
+    assert!(fs::metadata(&pipe)?.file_type().is_fifo());
+    Ok(())
+}
