@@ -4,6 +4,7 @@ use super::{Cell, KdTree, MAX_DEPTH, NodeKind, TreeError};
 use crate::geometry::Aabb;
 use crate::primitives::Primitives;
 use arrayvec::ArrayVec;
+use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 /// How many nodes may be passed in search of the primitives, for each node, reference and primitive.
@@ -29,20 +30,30 @@ pub(super) struct ContentCheck<'a, P, const K: usize> {
 struct Part<const K: usize> {
     /// No less than the part, and no more than where it lies in the tree.
     bounds: Aabb<K>,
-    /// All leaves that it lies in are below this node.
-    top: u32,
+    /// All leaves that it lies in are in this subtree.
+    top: Range<u32>,
     /// The nodes before this one were searched.
     from: u32,
     /// The leaf that does not list it, of a part that is looked for once more, with slack.
     missed_in: Option<u32>,
 }
 
+/// How a part is cut in two.
+struct Cut {
+    /// All leaves that it lies in and that were not searched are in this subtree.
+    top: Range<u32>,
+    /// The nodes before this one were searched.
+    from: u32,
+    axis: usize,
+    split: f32,
+}
+
 /// What becomes of a part on its way down.
 enum Fate {
     /// A leaf lists it.
     Listed,
-    /// The plane of `node` cuts it. All other leaves that it lies in are below `top`, too.
-    Cut { top: u32, node: u32, axis: usize, split: f32 },
+    /// A plane cuts it.
+    Cut(Cut),
     /// The leaves that it lies in, of which this is the last, do not list it.
     Missed(u32),
 }
@@ -88,17 +99,18 @@ impl<'a, P: Primitives<K>, const K: usize> ContentCheck<'a, P, K> {
         let largest = largest_coordinate(&self.primitives.bounds(id));
         let before = self.steps.load(Relaxed);
         let mut steps = before;
-        let mut parts = vec![Part { bounds, top: 0, from: 0, missed_in: None }];
+        let all = 0..self.tree.nodes.len() as u32;
+        let mut parts = vec![Part { bounds, top: all.clone(), from: 0, missed_in: None }];
         while let Some(part) = parts.pop() {
             match self.fate(id, &part, largest, &mut steps)? {
                 Fate::Listed => {}
-                Fate::Cut { top, node, axis, split } => {
+                Fate::Cut(Cut { top, from, axis, split }) => {
                     let (below, above) = part.bounds.split(axis, split);
                     // The last one is looked for first.
                     for piece in [above, below] {
                         if let Some(shape) = self.primitives.clipped_bounds(id, &piece) {
                             let bounds = shape.intersection(&piece);
-                            parts.push(Part { bounds, top, from: node, ..part });
+                            parts.push(Part { bounds, top: top.clone(), from, ..part });
                         }
                     }
                 }
@@ -106,7 +118,7 @@ impl<'a, P: Primitives<K>, const K: usize> ContentCheck<'a, P, K> {
                     if let Some(node) = part.missed_in {
                         return Err(TreeError::Missing { node, primitive: id });
                     }
-                    parts.push(Part { top: 0, from: 0, missed_in: Some(leaf), ..part });
+                    parts.push(Part { top: all.clone(), from: 0, missed_in: Some(leaf), ..part });
                 }
             }
         }
@@ -114,8 +126,9 @@ impl<'a, P: Primitives<K>, const K: usize> ContentCheck<'a, P, K> {
         Ok(())
     }
 
-    /// Looks for a part in the leaves in whose cells it lies, one after the other, until one lists it or
-    /// a plane cuts it. A part in a plane lies in both children, either of which may list it.
+    /// Looks for a part in the leaves in whose cells it lies, one after the other, until one lists it. A part in a
+    /// plane lies in both children, either of which may list it. So if both sides cut it, it is cut as that side does
+    /// which has fewer nodes: many cells on one side are not searched one by one for what a few on the other list.
     fn fate(
         &self,
         id: u32,
@@ -123,16 +136,17 @@ impl<'a, P: Primitives<K>, const K: usize> ContentCheck<'a, P, K> {
         largest: f32,
         steps: &mut u64,
     ) -> Result<Fate, TreeError> {
-        let &Part { bounds, top, from, missed_in } = part;
+        let &Part { bounds, ref top, from, missed_in } = part;
         // One waits on each level, and one more.
-        let mut nodes = ArrayVec::<u32, { MAX_DEPTH + 1 }>::new();
-        nodes.push(top);
-        let mut leaf = top;
-        while let Some(node) = nodes.pop() {
+        let mut nodes = ArrayVec::<Range<u32>, { MAX_DEPTH + 1 }>::new();
+        nodes.push(top.clone());
+        let (mut leaf, mut cut) = (top.start, None::<(Cut, u32)>);
+        while let Some(subtree) = nodes.pop() {
             *steps += 1;
             if *steps > self.most_steps {
                 return Err(TreeError::TooManySteps(self.most_steps));
             }
+            let node = subtree.start;
             let NodeKind::Inner { axis, split, above } = self.tree.nodes[node as usize].kind()
             else {
                 if self.tree.leaf_primitives(node).binary_search(&id).is_ok() {
@@ -146,14 +160,24 @@ impl<'a, P: Primitives<K>, const K: usize> ContentCheck<'a, P, K> {
             let lies_above = split - bounds.min[axis] <= slack;
             let straddles = bounds.min[axis] < split && split < bounds.max[axis];
             if straddles && !(lies_below && lies_above) {
-                let top = if nodes.is_empty() { node } else { top };
-                return Ok(Fate::Cut { top, node, axis, split });
+                let size = subtree.end - node;
+                match &mut cut {
+                    None => {
+                        let top = if nodes.is_empty() { subtree } else { top.clone() };
+                        cut = Some((Cut { top, from: node, axis, split }, size));
+                    }
+                    Some((cut, smallest)) if size < *smallest => {
+                        (cut.axis, cut.split, *smallest) = (axis, split, size);
+                    }
+                    Some(_) => {}
+                }
+                continue;
             }
-            nodes.extend(lies_above.then_some(above));
+            nodes.extend(lies_above.then_some(above..subtree.end));
             // The lower child and all below it stand before the upper one.
-            nodes.extend((lies_below && from < above).then_some(node + 1));
+            nodes.extend((lies_below && from < above).then_some(node + 1..above));
         }
-        Ok(Fate::Missed(leaf))
+        Ok(cut.map_or(Fate::Missed(leaf), |(cut, _)| Fate::Cut(cut)))
     }
 
     /// Whether all the searches together took no more steps than they may.
@@ -253,6 +277,20 @@ mod tests {
         };
         assert_eq!(validate(16), Ok(()));
         assert!(matches!(validate(1024), Err(TreeError::TooManySteps(_))));
+    }
+
+    #[test]
+    fn sheets_on_many_cells_are_found_above_them() {
+        // What stands below reaches up to the sheets, which are listed above: in one leaf, or in two.
+        for leaves_above in [1, 2] {
+            let strips = 1024;
+            let at: Vec<f32> = (0..=strips).map(|i| i as f32 / strips as f32).collect();
+            let all: Vec<u32> = (0..500).collect();
+            let mut tree = grown();
+            tree.cut(0, 0.5, |tree| tree.strips(1, &at, 0, &|_| vec![]));
+            tree.strips(2, &[0.0, 0.5, 1.0][2 - leaves_above..], 0, &|_| all.clone());
+            assert_eq!(tree.over(UNIT).validate(&sheets(500, 0.5)), Ok(()), "{leaves_above}");
+        }
     }
 
     #[test]
