@@ -81,7 +81,8 @@ pub(crate) fn build_instanced(
     /// What an instance takes, with its node.
     const INSTANCE_BYTES: u64 = 230;
     let placed = copies.len() as u32;
-    let needed = options.peak_bytes(count(meshes)) + INSTANCE_BYTES * copies.len() as u64;
+    let needed =
+        options.peak_bytes(count(meshes)) + INSTANCE_BYTES * (copies.len() + meshes.len()) as u64;
     if let Some(limit) = options.memory_limit.filter(|&limit| needed > limit) {
         let error = kdray::BuildError::Memory { needed, limit };
         return Err(BuildError::new_err(error.to_string()));

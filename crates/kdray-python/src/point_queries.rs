@@ -1,6 +1,7 @@
 //! What is asked about points.
 
 use crate::closest_point::{self as nearest, Arrays};
+use crate::columns::Real;
 use crate::error::{ArgumentError, argument};
 use crate::job::{self, Control, Job};
 use crate::points::{self, Points, Surface, each_block, each_point, for_points};
@@ -171,7 +172,7 @@ fn floats(py: Python<'_>, numbers: Vec<f64>, is_double: bool) -> Bound<'_, PyAny
     if is_double {
         return numbers.into_pyarray(py).into_any();
     }
-    let numbers: Vec<f32> = numbers.iter().map(|&number| number as f32).collect();
+    let numbers: Vec<f32> = numbers.iter().map(|&number| f32::of(number)).collect();
     numbers.into_pyarray(py).into_any()
 }
 

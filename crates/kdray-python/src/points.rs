@@ -156,9 +156,10 @@ pub(crate) fn thickness<T: Precision>(
     let one = |index: usize| {
         let [u, v] = at.weights;
         let (u, v) = (*u.get(index)?, *v.get(index)?);
-        // On the edge of the second and third corners.
-        let v = if (1.0 - u - v).abs() < at.rounded { 1.0 - u } else { v };
-        scene.thickness(at.ids[index]?, u, v, side)
+        // On the edge of the second and third corners, as far as one can tell; not in one of them, if it is on another edge.
+        let (first, inside) = (1.0 - u - v, u.min(v) > at.rounded);
+        let is_on_edge = first.abs() < at.rounded && (first < 0.0 || inside);
+        scene.thickness(at.ids[index]?, u, if is_on_edge { 1.0 - u } else { v }, side)
     };
     each_part(
         control,

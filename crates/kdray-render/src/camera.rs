@@ -62,7 +62,7 @@ impl View {
             return Err(CameraError::NotFinite);
         }
         let forward = (look_at - eye).try_normalize().ok_or(CameraError::NoDirection)?;
-        let unit_up = up.try_normalize().ok_or(CameraError::NoUp)?;
+        let unit_up = direction(camera.up).ok_or(CameraError::NoUp)?;
         let across = forward.cross(unit_up);
         let right = if across.length() > 1e-9 { across.normalize() } else { DVec3::ZERO };
         if right == DVec3::ZERO {
@@ -148,8 +148,14 @@ pub fn frame(bounds: &Aabb<3>, up: [f64; 3], aspect: f64) -> Camera {
     }
 }
 
+/// The unit vector in the direction of one of any length; `None` if it has none.
+pub(crate) fn direction(vector: [f64; 3]) -> Option<DVec3> {
+    // Squares of very long ones overflow, and of very short ones vanish.
+    let vector = DVec3::from(vector);
+    (vector / vector.abs().max_element()).try_normalize()
+}
+
 /// The rotation that takes the y axis to `up` the shortest way; the identity if that has no direction.
 fn turn_from_y(up: [f64; 3]) -> DQuat {
-    let up = DVec3::from(up).try_normalize();
-    up.map_or(DQuat::IDENTITY, |up| DQuat::from_rotation_arc(DVec3::Y, up))
+    direction(up).map_or(DQuat::IDENTITY, |up| DQuat::from_rotation_arc(DVec3::Y, up))
 }

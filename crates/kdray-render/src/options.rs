@@ -148,7 +148,7 @@ impl Background {
         match *self {
             Self::Color(color) => color.into(),
             Self::Gradient { horizon, zenith, up } => {
-                let upward = direction.dot(DVec3::from(up).normalize_or_zero());
+                let upward = crate::camera::direction(up).map_or(0.0, |up| direction.dot(up));
                 let height = upward.clamp(0.0, 1.0).sqrt() as f32;
                 Vec3::from(horizon).lerp(zenith.into(), height)
             }

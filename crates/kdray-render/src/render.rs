@@ -1,6 +1,6 @@
 //! From a world and a camera to a picture, in tiles on all threads.
 
-use crate::camera::{CameraError, View};
+use crate::camera::{CameraError, View, direction};
 use crate::film::{Film, MAX_PICTURE_BYTES};
 use crate::fingerprint;
 use crate::light::{Lamp, LightError, default_lights};
@@ -11,7 +11,6 @@ use crate::tile::TileTracer;
 use crate::tiles::Tiles;
 use crate::work::{RenderProgress, Work};
 use crate::world::World;
-use glam::DVec3;
 use kdray_scene::{Camera, Light};
 use rayon::prelude::*;
 use std::ops::{ControlFlow, Range};
@@ -183,7 +182,7 @@ fn check_part(options: &RenderOptions) -> Result<(), RenderError> {
 /// Refuses a sky that has no middle.
 fn check_sky(background: &Background) -> Result<(), RenderError> {
     match background {
-        Background::Gradient { up, .. } if DVec3::from(*up).try_normalize().is_none() => {
+        Background::Gradient { up, .. } if direction(*up).is_none() => {
             let (option, must) = ("background", "one colour, or a sky whose `up` has a direction");
             Err(RenderError::Option { option, must })
         }

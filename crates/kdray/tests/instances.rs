@@ -343,7 +343,8 @@ fn what_cannot_be_placed_is_refused() {
 fn what_is_empty_does_not_stretch_the_scene() {
     let empty = scene(TriangleMesh::<f64>::new(Vec::new(), Vec::new()).unwrap());
     let far = scene(cast::<f64>(&cube(), [1000.0; 3]));
-    let instances = vec![Instance::of(0), Instance::of(1), Instance::of(0).moved([-1e6, 0.0, 0.0])];
+    let instances =
+        vec![Instance::of(0), Instance::of(1), Instance::of(0).moved([-1e52, 0.0, 0.0])];
     let scene = InstancedScene::build(vec![empty, far.clone()], instances).unwrap();
     let alone = InstancedScene::build(vec![far], vec![Instance::of(0)]).unwrap();
     assert_eq!(scene.tree_space(), alone.tree_space());

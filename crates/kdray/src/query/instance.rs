@@ -127,7 +127,7 @@ pub(super) struct Place {
     /// Whether nothing is placed there.
     pub(super) is_empty: bool,
     /// How far from there it may be for rays, which are carried by an inverse that is rounded.
-    error: f64,
+    pub(super) error: f64,
 }
 
 impl Place {

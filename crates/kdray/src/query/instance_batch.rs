@@ -1,10 +1,10 @@
 //! All hits at once, and many rays, on instances.
 
+use super::asked::Asked;
 #[cfg(feature = "rayon")]
 use super::batch::par_chunks;
 use super::{InstanceHit, InstancedScene, Precision, Scene};
 use crate::geometry::Ray;
-use std::collections::HashSet;
 
 impl<T: Precision> InstancedScene<T> {
     /// Replaces `hits` by all that [`all_hits`](Self::all_hits) gives. Several times as fast where all are
@@ -29,10 +29,10 @@ impl<T: Precision> InstancedScene<T> {
 
     /// Gives `ask` each instance whose box the ray may meet, once: its id, its geometry and the ray there.
     fn each_met(&self, ray: &Ray, mut ask: impl FnMut(u32, &Scene<T>, &Ray)) {
-        let (mut walk, mut asked) = (self.walk(ray), HashSet::new());
+        let (mut walk, mut asked) = (self.walk(ray), Asked::default());
         while let Some(leaf) = walk.next_leaf(ray.interval.t_max, &mut ()) {
             for &id in leaf.primitives {
-                if asked.insert(id)
+                if asked.is_new(id)
                     && let Some((geometry, carried)) = self.carry(id, ray)
                 {
                     ask(id, geometry, &carried);

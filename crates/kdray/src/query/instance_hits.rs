@@ -1,12 +1,13 @@
 //! All hits on instances, in order, as they are asked for.
 
+use super::asked::Asked;
 use super::{InstanceHit, InstancedScene, Precision};
 use crate::geometry::Ray;
 use crate::primitives::{HitRule, TriangleMesh};
 use crate::traverse::{AllHits, LeafWalk};
 use std::cmp::Ordering;
+use std::collections::BinaryHeap;
 use std::collections::binary_heap::PeekMut;
-use std::collections::{BinaryHeap, HashSet};
 use std::iter::FusedIterator;
 
 /// The hits of a ray on instances by rising t, equal t by rising instance and primitive id, each once.
@@ -20,7 +21,7 @@ pub struct InstanceHits<'a, T: 'static = f32> {
     rule: HitRule,
     walk: LeafWalk<'a, 3>,
     /// Instances that were come to.
-    begun: HashSet<u32>,
+    begun: Asked,
     /// Those that have a next hit, the first of which is on top.
     waiting: BinaryHeap<Waiting<'a, T>>,
 }
@@ -35,7 +36,7 @@ struct Waiting<'a, T: 'static> {
 impl<'a, T: Precision> InstanceHits<'a, T> {
     pub(super) fn new(scene: &'a InstancedScene<T>, ray: &Ray, rule: HitRule) -> Self {
         let walk = scene.walk(ray);
-        let (begun, waiting) = (HashSet::new(), BinaryHeap::new());
+        let (begun, waiting) = (Asked::default(), BinaryHeap::new());
         Self { scene, ray: *ray, rule, walk, begun, waiting }
     }
 
@@ -45,7 +46,7 @@ impl<'a, T: Precision> InstanceHits<'a, T> {
             return false;
         };
         for &id in leaf.primitives {
-            if self.begun.insert(id)
+            if self.begun.is_new(id)
                 && let Some((geometry, carried)) = self.scene.carry(id, &self.ray)
             {
                 let mut rest = match self.rule {

@@ -1,5 +1,6 @@
 //! Many copies of few meshes: a kd-tree over kd-trees.
 
+use super::asked::Asked;
 use super::instance::{Instance, InstanceError, InstanceHit, Place};
 use super::{InstanceHits, Precision, Scene};
 use crate::build::{BuildError, BuildOptions, Strategy};
@@ -27,7 +28,7 @@ use thiserror::Error;
 /// largest coordinate is so of the scene's size.
 ///
 /// The direction is carried as well. One that is beyond the range of f64 then, as one of 1e308 is in a copy at a tenth of
-/// the size, misses that instance.
+/// the size, or that vanishes, misses that instance.
 ///
 /// ```
 /// use kdray::{BuildOptions, Instance, InstancedScene, Ray, Scene, TriangleMesh};
@@ -152,10 +153,10 @@ impl<T: Precision> InstancedScene<T> {
     #[must_use]
     pub fn closest_hit(&self, ray: &Ray) -> Option<InstanceHit> {
         let mut walk = self.walk(ray);
-        let (mut ray, mut closest, mut asked) = (*ray, None::<InstanceHit>, Vec::new());
+        let (mut ray, mut closest, mut asked) = (*ray, None::<InstanceHit>, Asked::default());
         while let Some(leaf) = walk.next_leaf(ray.interval.t_max, &mut ()) {
             for &id in leaf.primitives {
-                if !is_new(id, &mut asked) {
+                if !asked.is_new(id) {
                     continue;
                 }
                 let Some((geometry, carried)) = self.carry(id, &ray) else { continue };
@@ -175,10 +176,10 @@ impl<T: Precision> InstancedScene<T> {
     /// Whether there is any hit: whether `ray.interval` is occluded.
     #[must_use]
     pub fn any_hit(&self, ray: &Ray) -> bool {
-        let (mut walk, mut asked) = (self.walk(ray), Vec::new());
+        let (mut walk, mut asked) = (self.walk(ray), Asked::default());
         while let Some(leaf) = walk.next_leaf(ray.interval.t_max, &mut ()) {
             let mut is_hit = |id: u32| {
-                is_new(id, &mut asked)
+                asked.is_new(id)
                     && self.carry(id, ray).is_some_and(|(geometry, ray)| geometry.any_hit(&ray))
             };
             if leaf.primitives.iter().any(|&id| is_hit(id)) {
@@ -235,22 +236,14 @@ impl<T: Precision> InstancedScene<T> {
     }
 }
 
-/// Whether an instance was not asked yet, in this leaf or another; then it is now. They are few: to go through them is
-/// faster than to hash.
-fn is_new(id: u32, asked: &mut Vec<u32>) -> bool {
-    let is_new = !asked.contains(&id);
-    if is_new {
-        asked.push(id);
-    }
-    is_new
-}
-
-/// Puts instances of nothing where another is, so that they do not stretch the scene. Where all are of nothing, they
-/// stay where their origins are.
+/// Puts instances of nothing into a corner of another, so that they do not stretch the scene. Where all are of nothing,
+/// they stay where their origins are.
 fn hide_empty(places: &mut [Place]) {
-    if let Some(other) = places.iter().find(|place| !place.is_empty).map(|it| (it.low, it.high)) {
+    if let Some((corner, error)) =
+        places.iter().find(|place| !place.is_empty).map(|it| (it.low, it.error))
+    {
         for place in places.iter_mut().filter(|place| place.is_empty) {
-            (place.low, place.high) = other;
+            (place.low, place.high, place.error) = (corner, corner, error);
         }
     }
 }

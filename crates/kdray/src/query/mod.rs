@@ -2,6 +2,7 @@
 
 mod all_hits;
 mod arithmetic;
+mod asked;
 mod batch;
 mod closest_point;
 mod contains;

@@ -1,0 +1,37 @@
+//! Which instances a ray has met.
+
+use arrayvec::ArrayVec;
+use std::collections::HashSet;
+
+/// How many are gone through one by one, which is faster than to hash.
+const FEW: usize = 32;
+
+/// The instances that a ray was put to, each of which may be listed by many leaves.
+#[derive(Debug, Default)]
+pub(super) struct Asked {
+    first: ArrayVec<u32, FEW>,
+    others: HashSet<u32>,
+}
+
+impl Asked {
+    /// Whether this one was not asked yet; now it is.
+    pub(super) fn is_new(&mut self, id: u32) -> bool {
+        !self.first.contains(&id) && (self.first.try_push(id).is_ok() || self.others.insert(id))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_is_new_once() {
+        let mut asked = Asked::default();
+        for _ in 0..2 * FEW as u32 {
+            let count = (0..3 * FEW as u32).filter(|&id| asked.is_new(id)).count();
+            assert!(count == 3 * FEW || count == 0);
+        }
+        assert!((0..3 * FEW as u32).all(|id| !asked.is_new(id)));
+        assert!(asked.is_new(u32::MAX));
+    }
+}
