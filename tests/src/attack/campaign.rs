@@ -140,7 +140,8 @@ impl Campaign<'_> {
         numbers: Range<u64>,
     ) {
         let place = outcome.parts + target.first / targets::VOLLEYS;
-        let name = settings::NAMES[place as usize % settings::NAMES.len()];
+        let names = settings::names(outcome.triangles);
+        let name = names[place as usize % names.len()];
         let options = settings::named(name);
         let scene = match Scene::build(target.mesh.clone(), &options) {
             Ok(scene) => scene,

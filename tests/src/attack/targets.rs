@@ -122,7 +122,8 @@ fn in_f64() -> Vec<Target<f64>> {
 fn awkward() -> Vec<Target> {
     let of = |name: &str, soup: Soup| Target::new(name, meshes::mesh(soup));
     vec![
-        of("soup", meshes::soup(400, [0.0; 3], 1.0, 1)),
+        // As one leaf it is a node of nodes.
+        of("soup", meshes::soup(500, [0.0; 3], 1.0, 1)),
         of("far soup", meshes::soup(200, [6e5, -5e6, 300.0], 40.0, 6)),
         of("coplanar squares in layers", meshes::grid(8, 3)),
         of("coplanar squares, overlapping", overlapping(300)),

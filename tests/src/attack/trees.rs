@@ -14,7 +14,7 @@ const MOST: usize = 20_000;
 
 /// With how many of the settings trees of so many triangles are built again and again.
 pub fn settings_tried(triangles: usize) -> u64 {
-    if triangles <= MOST { settings::NAMES.len() as u64 } else { 2 }
+    if triangles <= MOST { settings::names(triangles).len() as u64 } else { 2 }
 }
 
 /// Builds and traces with all numbers of threads and all instruction sets; how many did not give what the
