@@ -1,5 +1,6 @@
 //! Lights: what arrives from one, and lights for scenes without any.
 
+use crate::camera::direction;
 use glam::{DVec3, Vec3};
 use kdray::Aabb;
 use kdray::geometry::Common;
@@ -40,7 +41,8 @@ pub fn point_light_for(bounds: &Aabb<3>, position: [f64; 3]) -> Light {
 /// that faces it from a third of the diagonal of `bounds`.
 pub fn default_lights(camera: &Camera, bounds: &Aabb<3>) -> Vec<Light> {
     let forward = (DVec3::from(camera.look_at) - DVec3::from(camera.eye)).normalize_or(-DVec3::Z);
-    let right = forward.cross(camera.up.into()).normalize_or(DVec3::X);
+    let up = direction(camera.up).unwrap_or(DVec3::Y);
+    let right = forward.cross(up).normalize_or(DVec3::X);
     let up = right.cross(forward);
     let direction = forward + 0.25 * right - 0.5 * up;
     let reach = if bounds.is_empty() { 1.0 } else { bounds.diagonal() / 3.0 };

@@ -91,7 +91,7 @@ fn the_sky_is_deepest_where_up_points() {
     };
     let (zenith, horizon) = (0.14, 0.82);
     for up in [Y_UP, [0.0, 0.0, 7.0], [-2.0, 1.0, 2.0], [1e-203, 1e-202, 0.0]].map(DVec3::from) {
-        let overhead = up.normalize();
+        let overhead = (up / up.abs().max_element()).normalize();
         let across = overhead.any_orthonormal_vector();
         // What share of the zenith's colour each has, by the sine of its height.
         for (sine, share) in
