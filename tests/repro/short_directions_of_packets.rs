@@ -19,10 +19,10 @@ fn what_lies_many_short_directions_away_is_hit() {
             let (mut hits, mut found) = (HitArrays::default(), [false; 64]);
             scene.packet_closest_hits(&packet, &mut hits);
             scene.packet_any_hits(&packet, &mut found);
-            for index in 0..64 {
+            for (index, &is_hit) in found.iter().enumerate() {
                 let expected = scene.closest_hit(&packet.ray(index));
                 assert!(expected.is_some(), "{length:e}");
-                assert_eq!((hits.get(index), found[index]), (expected, true), "{length:e}");
+                assert_eq!((hits.get(index), is_hit), (expected, true), "{length:e}");
             }
         }
     }

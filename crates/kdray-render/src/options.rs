@@ -47,7 +47,7 @@ pub enum Background {
         horizon: [f32; 3],
         /// The colour of `up`.
         zenith: [f32; 3],
-        /// The direction overhead, such as [`Y_UP`](crate::Y_UP), of any length but zero.
+        /// The direction overhead, such as [`Y_UP`], of any length but zero.
         up: [f64; 3],
     },
 }
