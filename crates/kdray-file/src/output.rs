@@ -29,7 +29,7 @@ impl Output {
     /// # Errors
     /// If it is a folder, a file that must not be written to, or in a folder of which that is so.
     pub fn create(path: &Path) -> io::Result<Self> {
-        let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+        let path = resolved(path)?;
         let sink = Sink::open(&path)?;
         Ok(Self { path, sink })
     }
@@ -81,7 +81,11 @@ impl Output {
 
 impl Sink {
     fn open(path: &Path) -> io::Result<Self> {
-        let found = fs::metadata(path).ok();
+        let found = match fs::metadata(path) {
+            Ok(found) => Some(found),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => None,
+            Err(error) => return Err(error),
+        };
         match &found {
             Some(found) if found.is_dir() => return Err(io::ErrorKind::IsADirectory.into()),
             Some(found) if !found.is_file() => {
@@ -90,7 +94,9 @@ impl Sink {
             Some(found) if found.permissions().readonly() => {
                 return Err(io::ErrorKind::PermissionDenied.into());
             }
-            _ => {}
+            // Others than its owner may be allowed to write to it, or the owner alone.
+            Some(_) => drop(File::options().write(true).open(path)?),
+            None => {}
         }
         let mut builder = tempfile::Builder::new();
         builder.prefix(".kdray-").suffix(".part");
@@ -105,10 +111,34 @@ impl Sink {
         // The kind alone: the message has the temporary name, which says nothing to the user.
         let file = builder.tempfile_in(folder).map_err(|error| io::Error::from(error.kind()))?;
         if let Some(found) = found {
-            file.as_file().set_permissions(found.permissions())?;
+            // Where the file system has none, there is nothing to keep.
+            let _ = file.as_file().set_permissions(found.permissions());
         }
         Ok(Self::Temporary(file))
     }
+}
+
+/// Where links lead, also those to what is not there yet.
+fn resolved(path: &Path) -> io::Result<PathBuf> {
+    const MOST_LINKS: usize = 40;
+    let mut path = path.to_owned();
+    for _ in 0..MOST_LINKS {
+        if let Ok(found) = fs::canonicalize(&path) {
+            return Ok(found);
+        }
+        match fs::read_link(&path) {
+            Ok(target) => path = folder_of(&path).join(target),
+            Err(_) if path.file_name().is_none() || ends_as_folder(&path) => {
+                return Err(io::ErrorKind::IsADirectory.into());
+            }
+            Err(_) => return Ok(path),
+        }
+    }
+    Err(io::Error::new(io::ErrorKind::InvalidInput, "links that lead to each other"))
+}
+
+fn ends_as_folder(path: &Path) -> bool {
+    path.as_os_str().as_encoded_bytes().ends_with(b"/")
 }
 
 fn folder_of(path: &Path) -> &Path {

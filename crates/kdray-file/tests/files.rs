@@ -174,6 +174,13 @@ fn links_stay_and_so_do_permissions() -> Done {
     symlink(&file, &link)?;
     save(&scene, &link)?;
     assert!(fs::symlink_metadata(&link)?.is_symlink() && is_tree_file(&file)?);
+    let (waiting, not_yet) = (folder.path().join("waiting"), folder.path().join("not_yet"));
+    symlink("not_yet", &waiting)?;
+    save(&scene, &waiting)?;
+    assert!(fs::symlink_metadata(&waiting)?.is_symlink() && is_tree_file(&not_yet)?);
+    let circle = folder.path().join("circle");
+    symlink("circle", &circle)?;
+    assert!(save(&scene, &circle).is_err() && fs::symlink_metadata(&circle)?.is_symlink());
     assert_eq!(fs::metadata(&file)?.permissions().mode() & 0o777, 0o600);
     Ok(())
 }
@@ -188,7 +195,10 @@ fn what_must_not_be_written_to_is_left_alone() -> Done {
     fs::set_permissions(&file, fs::Permissions::from_mode(0o444))?;
     assert!(matches!(save(&scene, &file), Err(TreeFileError::Io { .. })));
     assert_eq!(fs::read(&file)?, b"kept");
-    assert!(matches!(save(&scene, folder.path()), Err(TreeFileError::Io { .. })));
+    for path in [folder.path(), &folder.path().join("new/"), Path::new("")] {
+        assert!(matches!(save(&scene, path), Err(TreeFileError::Io { .. })), "{path:?}");
+    }
+    assert_eq!(fs::read_dir(folder.path())?.count(), 1);
     Ok(())
 }
 
