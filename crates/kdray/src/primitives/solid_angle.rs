@@ -25,7 +25,7 @@ const BESIDE_EDGE: f64 = 1.0 / (1_u64 << 20) as f64;
 /// the plane exactly, for the side that the point is on is decided without rounding. So it is close to an edge, where
 /// all shares meet. Farther away it goes through zero without a leap, and in the plane may be off by rounding, either way.
 pub fn solid_angle(point: [f64; 3], corners: [[f64; 3]; 3]) -> f64 {
-    let mut ways = corners.map(|corner| way(point, corner));
+    let mut ways = corners.map(|corner| way(point, corner).0);
     let in_range = |way: &DVec3| SQUARES.contains(&way.length_squared());
     if !ways.iter().all(in_range) {
         // How far away corners are does not matter.
@@ -48,11 +48,12 @@ pub fn solid_angle(point: [f64; 3], corners: [[f64; 3]; 3]) -> f64 {
     }
 }
 
-/// The way from one point to another, or a quarter of it if it may be too long.
-fn way(from: [f64; 3], to: [f64; 3]) -> DVec3 {
+/// The way from one point to another, or a quarter of it if it may be too long; and by which power of two it was
+/// divided.
+fn way(from: [f64; 3], to: [f64; 3]) -> (DVec3, i32) {
     let (from, to) = (DVec3::from(from), DVec3::from(to));
     let way = to - from;
-    if way.abs().max_element() < LONGEST { way } else { 0.25 * to - 0.25 * from }
+    if way.abs().max_element() < LONGEST { (way, 0) } else { (0.25 * to - 0.25 * from, 2) }
 }
 
 /// A vector times a power of two, by which its largest component is one to two, or for the smallest numbers less;
@@ -105,11 +106,10 @@ struct End {
 
 impl End {
     fn of(point: [f64; 3], corner: [f64; 3]) -> Self {
-        let is_quarter = (DVec3::from(corner) - DVec3::from(point)).abs().max_element() >= LONGEST;
-        let (way, factor) = scaled(way(point, corner));
-        let exponent = exponent_of_power_of_two(factor);
-        let length =
-            Scaled { mantissa: way.length(), exponent: 2 * i32::from(is_quarter) - exponent };
+        let (way, divided) = way(point, corner);
+        let (way, factor) = scaled(way);
+        let exponent = divided - exponent_of_power_of_two(factor);
+        let length = Scaled { mantissa: way.length(), exponent };
         Self { corner, way: way.normalize_or_zero(), length }
     }
 }
