@@ -135,7 +135,7 @@ pub(crate) fn normals(tree: &Tree, ids: Ids<'_>) -> Vec<[f64; 3]> {
         // Scaled, so that neither squares nor products leave the range of f64.
         let scale = ab.abs().max(ac.abs()).max_element();
         let normal = (ab / scale).cross(ac / scale).try_normalize()?;
-        Some(if placed.is_mirrored() { -normal } else { normal }.into())
+        Some(if placed.instance.is_mirrored() { -normal } else { normal }.into())
     })
 }
 
@@ -155,26 +155,20 @@ pub(crate) fn positions(
 /// A triangle, and where its instance puts it.
 struct Placed {
     corners: [[f64; 3]; 3],
-    to_world: [[f64; 4]; 3],
+    /// As it is if there is none.
+    instance: Instance,
 }
 
 impl Placed {
     /// The world's point for one of the geometry.
     fn moved(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
-        self.to_world.map(|[a, b, c, offset]| a * x + b * y + c * z + offset)
+        self.instance.to_world.map(|[a, b, c, offset]| a * x + b * y + c * z + offset)
     }
 
     /// The world's direction for one of the geometry. Edges are turned, and not corners moved: far away their digits
     /// would be lost.
     fn turned(&self, DVec3 { x, y, z }: DVec3) -> DVec3 {
-        self.to_world.map(|[a, b, c, _]| a * x + b * y + c * z).into()
-    }
-
-    /// Whether the matrix turns left to right; the front stays the front.
-    fn is_mirrored(&self) -> bool {
-        let [x, y, z] = DVec3::AXES.map(|axis| self.turned(axis));
-        let largest = x.abs().max(y.abs()).max(z.abs()).max_element();
-        (x / largest).cross(y / largest).dot(z / largest) < 0.0
+        self.instance.to_world.map(|[a, b, c, _]| a * x + b * y + c * z).into()
     }
 }
 
@@ -212,7 +206,7 @@ fn place(
     let corners = mesh.corners(id);
     let instances = instances(tree);
     if instances.is_empty() || instance < 0 {
-        return Some(Placed { corners, to_world: Instance::IDENTITY });
+        return Some(Placed { corners, instance: Instance::of(geometry as u32) });
     }
-    Some(Placed { corners, to_world: instances.get(instance as usize)?.to_world })
+    Some(Placed { corners, instance: *instances.get(instance as usize)? })
 }

@@ -187,7 +187,12 @@ impl Instance {
         let matrix = affine(&self.to_world).matrix3;
         let normal = (matrix * (b - a)).cross(matrix * (c - a));
         // Mirrored, the triangle runs the other way around.
-        if scaled(&matrix).0.determinant() < 0.0 { -normal } else { normal }
+        if self.is_mirrored() { -normal } else { normal }
+    }
+
+    /// Whether the matrix turns left to right. The front of a triangle is its front all the same.
+    pub fn is_mirrored(&self) -> bool {
+        scaled(&affine(&self.to_world).matrix3).0.determinant() < 0.0
     }
 }
 
