@@ -10,13 +10,24 @@ const FEW: usize = 32;
 #[derive(Debug, Default)]
 pub(super) struct Asked {
     first: ArrayVec<u32, FEW>,
-    others: HashSet<u32>,
+    others: Option<HashSet<u32>>,
 }
 
 impl Asked {
+    /// Whether this one may not have been asked yet: surely not so only of the first few. Where it does no harm to ask
+    /// again, that is faster than to know.
+    pub(super) fn may_be_new(&mut self, id: u32) -> bool {
+        let may_be_new = !self.first.contains(&id);
+        if may_be_new && !self.first.is_full() {
+            self.first.push(id);
+        }
+        may_be_new
+    }
+
     /// Whether this one was not asked yet; now it is.
     pub(super) fn is_new(&mut self, id: u32) -> bool {
-        !self.first.contains(&id) && (self.first.try_push(id).is_ok() || self.others.insert(id))
+        !self.first.contains(&id)
+            && (self.first.try_push(id).is_ok() || self.others.get_or_insert_default().insert(id))
     }
 }
 
@@ -33,5 +44,12 @@ mod tests {
         }
         assert!((0..3 * FEW as u32).all(|id| !asked.is_new(id)));
         assert!(asked.is_new(u32::MAX));
+    }
+
+    #[test]
+    fn the_first_few_are_known() {
+        let mut asked = Asked::default();
+        assert!((0..2 * FEW as u32).all(|id| asked.may_be_new(id)));
+        assert!((0..FEW as u32).all(|id| !asked.may_be_new(id)));
     }
 }

@@ -22,22 +22,24 @@ pub struct InstanceHits<'a, T: 'static = f32> {
     walk: LeafWalk<'a, 3>,
     /// Instances that were come to.
     begun: Asked,
-    /// Those that have a next hit, the first of which is on top.
-    waiting: BinaryHeap<Waiting<'a, T>>,
+    /// The hits of each of them after its next one.
+    rests: Vec<AllHits<'a, TriangleMesh<T>, 3>>,
+    /// The next hits of those that have one, the first of which is on top.
+    waiting: BinaryHeap<Waiting>,
 }
 
-/// An instance with its next hit, and those after it.
+/// The next hit of an instance, and where those after it are: they are many bytes, and stay where they are.
 #[derive(Debug)]
-struct Waiting<'a, T: 'static> {
+struct Waiting {
     next: InstanceHit,
-    rest: AllHits<'a, TriangleMesh<T>, 3>,
+    rest: usize,
 }
 
 impl<'a, T: Precision> InstanceHits<'a, T> {
     pub(super) fn new(scene: &'a InstancedScene<T>, ray: &Ray, rule: HitRule) -> Self {
         let walk = scene.walk(ray);
-        let (begun, waiting) = (Asked::default(), BinaryHeap::new());
-        Self { scene, ray: *ray, rule, walk, begun, waiting }
+        let (begun, rests, waiting) = (Asked::default(), Vec::new(), BinaryHeap::new());
+        Self { scene, ray: *ray, rule, walk, begun, rests, waiting }
     }
 
     /// Begins with the instances of the next leaf; false if there is none.
@@ -54,7 +56,9 @@ impl<'a, T: Precision> InstanceHits<'a, T> {
                     HitRule::Touching => geometry.all_touched(&carried),
                 };
                 if let Some(hit) = rest.next() {
-                    self.waiting.push(Waiting { next: self.scene.found(id, hit), rest });
+                    let next = self.scene.found(id, hit);
+                    self.waiting.push(Waiting { next, rest: self.rests.len() });
+                    self.rests.push(rest);
                 }
             }
         }
@@ -63,25 +67,25 @@ impl<'a, T: Precision> InstanceHits<'a, T> {
 }
 
 /// The instance whose hit comes first is the greatest.
-impl<T> Ord for Waiting<'_, T> {
+impl Ord for Waiting {
     fn cmp(&self, other: &Self) -> Ordering {
         other.next.order(&self.next)
     }
 }
 
-impl<T> PartialOrd for Waiting<'_, T> {
+impl PartialOrd for Waiting {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl<T> PartialEq for Waiting<'_, T> {
+impl PartialEq for Waiting {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other) == Ordering::Equal
     }
 }
 
-impl<T> Eq for Waiting<'_, T> {}
+impl Eq for Waiting {}
 
 impl<T: Precision> FusedIterator for InstanceHits<'_, T> {}
 
@@ -98,7 +102,7 @@ impl<T: Precision> Iterator for InstanceHits<'_, T> {
         }
         let mut first = self.waiting.peek_mut()?;
         let found = first.next;
-        match first.rest.next() {
+        match self.rests[first.rest].next() {
             Some(hit) => first.next = self.scene.found(found.instance_id, hit),
             None => drop(PeekMut::pop(first)),
         }

@@ -156,7 +156,7 @@ impl<T: Precision> InstancedScene<T> {
         let (mut ray, mut closest, mut asked) = (*ray, None::<InstanceHit>, Asked::default());
         while let Some(leaf) = walk.next_leaf(ray.interval.t_max, &mut ()) {
             for &id in leaf.primitives {
-                if !asked.is_new(id) {
+                if !asked.may_be_new(id) {
                     continue;
                 }
                 let Some((geometry, carried)) = self.carry(id, &ray) else { continue };
@@ -179,7 +179,7 @@ impl<T: Precision> InstancedScene<T> {
         let (mut walk, mut asked) = (self.walk(ray), Asked::default());
         while let Some(leaf) = walk.next_leaf(ray.interval.t_max, &mut ()) {
             let mut is_hit = |id: u32| {
-                asked.is_new(id)
+                asked.may_be_new(id)
                     && self.carry(id, ray).is_some_and(|(geometry, ray)| geometry.any_hit(&ray))
             };
             if leaf.primitives.iter().any(|&id| is_hit(id)) {
