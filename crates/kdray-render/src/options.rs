@@ -1,6 +1,6 @@
 //! What to render, and how well.
 
-use crate::camera::Y_UP;
+use crate::camera::{Y_UP, direction};
 use crate::part::Crop;
 use glam::{DVec3, Vec3};
 use std::ops::Range;
@@ -143,13 +143,22 @@ impl Background {
         Self::Gradient { horizon: [0.82, 0.88, 0.95], zenith: [0.14, 0.3, 0.68], up }
     }
 
-    /// The radiance that arrives against the unit vector `direction`.
+    /// The same, with an `up` of length one; `None` if it has no direction.
+    pub(crate) fn upright(self) -> Option<Self> {
+        match self {
+            Self::Color(_) => Some(self),
+            Self::Gradient { horizon, zenith, up } => {
+                Some(Self::Gradient { horizon, zenith, up: direction(up)?.into() })
+            }
+        }
+    }
+
+    /// The radiance that arrives against the unit vector `direction`, if `up` is one, too.
     pub(crate) fn radiance(&self, direction: DVec3) -> Vec3 {
         match *self {
             Self::Color(color) => color.into(),
             Self::Gradient { horizon, zenith, up } => {
-                let upward = crate::camera::direction(up).map_or(0.0, |up| direction.dot(up));
-                let height = upward.clamp(0.0, 1.0).sqrt() as f32;
+                let height = direction.dot(up.into()).clamp(0.0, 1.0).sqrt() as f32;
                 Vec3::from(horizon).lerp(zenith.into(), height)
             }
         }

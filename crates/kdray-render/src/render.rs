@@ -1,10 +1,10 @@
 //! From a world and a camera to a picture, in tiles on all threads.
 
-use crate::camera::{CameraError, View, direction};
+use crate::camera::{CameraError, View};
 use crate::film::{Film, MAX_PICTURE_BYTES};
 use crate::fingerprint;
 use crate::light::{Lamp, LightError, default_lights};
-use crate::options::{Background, MAX_SAMPLES, RenderOptions};
+use crate::options::{MAX_SAMPLES, RenderOptions};
 use crate::part::Crop;
 use crate::picture::Picture;
 use crate::tile::TileTracer;
@@ -132,6 +132,10 @@ pub fn render_with_progress(
     // Before the options: of a vector that is up for both, the camera has the clearer complaint.
     let view = View::new(camera, width as f64 / height as f64)?;
     check(options)?;
+    let background = options.background.upright().ok_or(RenderError::Option {
+        option: "background",
+        must: "one colour, or a sky whose `up` has a direction",
+    })?;
     let lamps = if lights.is_empty() {
         Lamp::all(&default_lights(camera, world.bounds()))
     } else {
@@ -147,6 +151,7 @@ pub fn render_with_progress(
     })?;
     let tiles = Tiles { width, height, window };
     let work = Work::new(film, tiles, progress);
+    let options = &RenderOptions { background, ..options.clone() };
     (0..tiles.count()).into_par_iter().for_each(|index| {
         if !work.is_stopped() {
             let mut tracer = TileTracer::new(world, &view, &lamps, options);
@@ -179,17 +184,6 @@ fn check_part(options: &RenderOptions) -> Result<(), RenderError> {
     }
 }
 
-/// Refuses a sky that has no middle.
-fn check_sky(background: &Background) -> Result<(), RenderError> {
-    match background {
-        Background::Gradient { up, .. } if direction(*up).is_none() => {
-            let (option, must) = ("background", "one colour, or a sky whose `up` has a direction");
-            Err(RenderError::Option { option, must })
-        }
-        _ => Ok(()),
-    }
-}
-
 fn check(options: &RenderOptions) -> Result<(), RenderError> {
     let in_range = |option, value: u32, range: Range<u32>, must| {
         if range.contains(&value) { Ok(()) } else { Err(RenderError::Option { option, must }) }
@@ -205,7 +199,6 @@ fn check(options: &RenderOptions) -> Result<(), RenderError> {
         if good { Ok(()) } else { Err(RenderError::Option { option, must }) }
     };
     positive("exposure", options.exposure.into())?;
-    check_sky(&options.background)?;
     options.occlusion_distance.map_or(Ok(()), |d| positive("occlusion_distance", d))?;
     options.heat_max.map_or(Ok(()), |max| positive("heat_max", max.into()))
 }
