@@ -15,6 +15,7 @@ mod overflow_in_the_filter;
 mod overflow_of_t;
 mod rounded_way_to_a_target;
 mod shares_beside_edges;
+mod sheets_on_columns;
 mod short_directions_of_packets;
 mod sign_of_zero;
 mod slivers_beside_points;

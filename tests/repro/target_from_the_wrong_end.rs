@@ -1,10 +1,9 @@
 //! Rays to a common target are bounded from there; the closest hit was sought from there too, and the
 //! farthest one was found.
 
-use kdray::primitives::HitArrays;
 use kdray::{BuildOptions, RayPacket, Scene};
 use kdray_tests::meshes;
-use kdray_tests::sets::by_each_set;
+use kdray_tests::sets::assert_packet_agrees;
 
 #[test]
 fn the_closest_hit_is_the_one_closest_to_the_origin() {
@@ -14,11 +13,5 @@ fn the_closest_hit_is_the_one_closest_to_the_origin() {
     let x: Vec<f64> = (0..64).map(|i| 0.01 * f64::from(i)).collect();
     let (y, z) = (vec![0.0; 64], vec![4.0; 64]);
     let packet = RayPacket::towards([0.0; 3], [&x, &y, &z]);
-    for scene in by_each_set(&scene) {
-        let mut hits = HitArrays::default();
-        scene.packet_closest_hits(&packet, &mut hits);
-        for index in 0..64 {
-            assert_eq!(hits.get(index), scene.closest_hit(&packet.ray(index)));
-        }
-    }
+    assert_packet_agrees(&scene, &packet);
 }

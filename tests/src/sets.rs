@@ -1,9 +1,27 @@
 //! Instruction sets.
 
-use kdray::{InstructionSet, Precision, Scene};
+use kdray::primitives::HitArrays;
+use kdray::{InstructionSet, Precision, RayPacket, Scene};
 
 /// A scene as it is searched by each instruction set that this processor has, the best last.
 pub fn by_each_set<T: Precision>(scene: &Scene<T>) -> impl Iterator<Item = Scene<T>> {
     let sets = InstructionSet::available().into_iter();
     sets.map(|set| scene.clone().with_instructions(set))
+}
+
+/// Makes sure that by each instruction set a packet gets the answers of its rays.
+///
+/// # Panics
+/// If it does not.
+pub fn assert_packet_agrees<T: Precision>(scene: &Scene<T>, packet: &RayPacket<'_>) {
+    for scene in by_each_set(scene) {
+        let (mut hits, mut found) = (HitArrays::default(), vec![false; packet.len()]);
+        scene.packet_closest_hits(packet, &mut hits);
+        scene.packet_any_hits(packet, &mut found);
+        for (index, &is_hit) in found.iter().enumerate() {
+            let ray = packet.ray(index);
+            let expected = (scene.closest_hit(&ray), scene.any_hit(&ray));
+            assert_eq!((hits.get(index), is_hit), expected, "{ray:?}");
+        }
+    }
 }

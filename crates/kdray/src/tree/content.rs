@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 /// How many nodes may be passed in search of the primitives, for each node, reference and primitive.
 ///
-/// Trees that were built by any strategy took 14 at most. But two sides of a plane may be cut so differently that there are
+/// Trees over ordinary scenes took 14 at most, whatever the strategy. But two sides of a plane may be cut so differently that there are
 /// as many pieces of a primitive in the plane as the product of their cells; and so many cells may lie within
 /// rounding of a primitive, or of a million, that each is sought in all of them. Such a tree breaks no other rule, but
 /// no build is known to make one.
