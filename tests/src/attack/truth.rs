@@ -90,8 +90,10 @@ impl Truth {
             }
             Glance::Unclear => {
                 self.is_close = true;
-                self.touched.extend(exactly(corners, id, ray, HitRule::Touching));
-                self.crossed.extend(exactly(corners, id, ray, HitRule::Crossing));
+                if let Some((hit, crosses)) = exactly(corners, id, ray) {
+                    self.touched.push(hit);
+                    self.crossed.extend(crosses.then_some(hit));
+                }
             }
         }
     }
@@ -144,14 +146,9 @@ pub(super) fn can_hit(ray: &Ray) -> bool {
     are_finite && ray.direction != [0.0; 3] && !t_min.is_nan() && !t_max.is_nan()
 }
 
-/// The oracle's answer.
-fn exactly<T: Coordinate>(
-    corners: &[[T; 3]; 3],
-    id: u32,
-    ray: &Ray,
-    rule: HitRule,
-) -> Option<TrueHit> {
-    let exact = exact_triangle_hit(corners, id, ray, rule)?;
+/// The oracle's answer, and whether it is by [`HitRule::Crossing`] as well.
+fn exactly<T: Coordinate>(corners: &[[T; 3]; 3], id: u32, ray: &Ray) -> Option<(TrueHit, bool)> {
+    let exact = exact_triangle_hit(corners, id, ray, HitRule::Touching)?;
     let t = exact.t.to_f64().unwrap_or(f64::INFINITY);
     // What is nearer to zero than the smallest f64 keeps its sign.
     let smallest = f64::from_bits(1);
@@ -160,7 +157,7 @@ fn exactly<T: Coordinate>(
         (true, _, true) => -smallest,
         _ => t,
     };
-    Some(TrueHit { id, t, side: exact.side })
+    Some((TrueHit { id, t, side: exact.side }, exact.crosses))
 }
 
 /// What f64 tells of a ray and a triangle.
@@ -265,7 +262,7 @@ mod tests {
             for ray in Archer::new(&mesh, 5).all_kinds(20, 1e6) {
                 for id in 0..mesh.triangles().len() as u32 {
                     let corners = mesh.corners(id);
-                    let exact = exactly(&corners, id, &ray, HitRule::Touching);
+                    let exact = exactly(&corners, id, &ray).map(|(hit, _)| hit);
                     match View::of(&ray, 1.0).glance(&corners) {
                         Glance::Missed => assert_eq!(exact, None, "{ray:?} {id}"),
                         Glance::Hit(t, side) => {
@@ -289,7 +286,7 @@ mod tests {
                 let view = View::of(&ray, flat.scale());
                 for id in 0..30 {
                     let corners = mesh.corners(id);
-                    let exact = exactly(&corners, id, &ray, HitRule::Touching);
+                    let exact = exactly(&corners, id, &ray).map(|(hit, _)| hit);
                     match view.glance(&corners) {
                         Glance::Missed => assert_eq!(exact, None, "{ray:?} {id}"),
                         Glance::Hit(t, _) => assert!(exact.unwrap().is_at(t), "{ray:?} {id}"),

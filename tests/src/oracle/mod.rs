@@ -38,6 +38,14 @@ pub struct ExactHit {
     pub v: f64,
     /// The side the ray came from.
     pub side: Side,
+    /// Whether it counts for [`HitRule::Crossing`] too.
+    pub crosses: bool,
+}
+
+impl ExactHit {
+    fn counts_for(&self, rule: HitRule) -> bool {
+        rule == HitRule::Touching || self.crosses
+    }
 }
 
 /// What decides whether a line meets a primitive: numbers that are linear in the line's origin.
@@ -48,31 +56,29 @@ struct Terms<const N: usize> {
     weights: [BigInt; N],
 }
 
-/// Whether the line hits by `rule`, and if so its terms.
+/// Whether the line touches, and if so its terms, and whether the moved line hits as well.
 ///
 /// The moved ray has the origin o + (ε, ε², ε³), in 2-D without the last. Since weights are linear in the
-/// origin, what they gain by a step along an axis, as `gains` says, is the coefficient of that power of ε.
+/// origin, what they gain by a step along an axis, as `gains` says, is the coefficient of that power of ε. They
+/// matter only where a weight is zero: moved, no line hits what it does not touch.
 fn decide<const K: usize, const N: usize>(
     plain: Terms<N>,
-    rule: HitRule,
     gains: impl Fn(&Vector<K>) -> [BigInt; N],
-) -> Option<Terms<N>> {
+) -> Option<(Terms<N>, bool)> {
     let side = sign(&plain.along_normal);
-    if side == Sign::NoSign {
+    let is_zero = |weight: &BigInt| sign(weight) == Sign::NoSign;
+    let touches = plain.weights.iter().all(|weight| is_zero(weight) || sign(weight) == side);
+    if side == Sign::NoSign || !touches {
         return None;
     }
-    let moves: Vec<[BigInt; N]> = match rule {
-        HitRule::Touching => Vec::new(),
-        HitRule::Crossing => (0..K).map(|axis| gains(&Vector::step(axis))).collect(),
-    };
-    let hit = (0..N).all(|i| {
-        let all = std::iter::once(&plain.weights).chain(&moves);
-        match all.map(|weights| sign(&weights[i])).find(|&sign| sign != Sign::NoSign) {
-            Some(first) => first == side,
-            None => rule == HitRule::Touching,
-        }
+    let zeros: Vec<usize> = (0..N).filter(|&i| is_zero(&plain.weights[i])).collect();
+    let axes = if zeros.is_empty() { 0..0 } else { 0..K };
+    let moves: Vec<[BigInt; N]> = axes.map(|axis| gains(&Vector::step(axis))).collect();
+    let crosses = zeros.into_iter().all(|i| {
+        let first = moves.iter().find(|gained| !is_zero(&gained[i]));
+        first.is_some_and(|gained| sign(&gained[i]) == side)
     });
-    hit.then_some(plain)
+    Some((plain, crosses))
 }
 
 /// The side that a line with these terms comes from.

@@ -34,7 +34,10 @@ pub fn exact_segment_hit(
         let gain = step.times(&along_normal).minus(&d.times(&normal.dot(step)));
         weights(&gain, BigInt::ZERO)
     };
-    let terms = decide(Terms { along_normal: along_normal.clone(), weights: plain }, rule, gains)?;
+    let terms = Terms { along_normal: along_normal.clone(), weights: plain };
+    let (terms, crosses) = decide(terms, gains)?;
     let (u, side) = (share(&terms, 1), side_of(&terms));
-    Some(ExactHit { primitive_id: id, t: ratio(height, terms.along_normal), u, v: 0.0, side })
+    let t = ratio(height, terms.along_normal);
+    Some(ExactHit { primitive_id: id, t, u, v: 0.0, side, crosses })
+        .filter(|hit| hit.counts_for(rule))
 }

@@ -18,7 +18,7 @@ pub fn exact_triangle_hit<T: Coordinate>(
     }
     let [a, b, c] = corners;
     let [a, b, c, o, d] = integers([a, b, c, ray.origin, ray.direction]);
-    hit_of_line([&a, &b, &c], id, (&o, &d), rule)
+    hit_of_line([&a, &b, &c], id, (&o, &d)).filter(|hit| hit.counts_for(rule))
 }
 
 /// Where the line through two points touches the triangle: t is 0 at the first point and 1 at the second. Their
@@ -31,14 +31,13 @@ pub(super) fn exact_touch_between<T: Coordinate>(
 ) -> Option<ExactHit> {
     let [a, b, c] = corners.map(|p| p.map(T::to_f64));
     let [a, b, c, from, to] = integers([a, b, c, from, to]);
-    hit_of_line([&a, &b, &c], id, (&from, &to.minus(&from)), HitRule::Touching)
+    hit_of_line([&a, &b, &c], id, (&from, &to.minus(&from)))
 }
 
 fn hit_of_line(
     [a, b, c]: [&Vector<3>; 3],
     id: u32,
     (o, d): (&Vector<3>, &Vector<3>),
-    rule: HitRule,
 ) -> Option<ExactHit> {
     let (ab, ac) = (b.minus(a), c.minus(a));
     let normal = ab.cross(&ac);
@@ -59,7 +58,8 @@ fn hit_of_line(
         let gain = step.times(&along_normal).minus(&d.times(&normal.dot(step)));
         weights(&gain, BigInt::ZERO)
     };
-    let terms = decide(Terms { along_normal: along_normal.clone(), weights: plain }, rule, gains)?;
+    let terms = Terms { along_normal: along_normal.clone(), weights: plain };
+    let (terms, crosses) = decide(terms, gains)?;
     let (u, v, side) = (share(&terms, 1), share(&terms, 2), side_of(&terms));
-    Some(ExactHit { primitive_id: id, t: ratio(height, terms.along_normal), u, v, side })
+    Some(ExactHit { primitive_id: id, t: ratio(height, terms.along_normal), u, v, side, crosses })
 }
