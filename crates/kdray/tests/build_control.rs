@@ -6,7 +6,7 @@ mod build_common;
 
 use build_common::{all_options, mesh, random_soup};
 use kdray::primitives::Primitives;
-use kdray::{Aabb, BuildError, BuildOptions, KdTree};
+use kdray::{Aabb, BuildError, BuildOptions, KdTree, Scene};
 use std::ops::ControlFlow;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -21,10 +21,43 @@ fn progress_rises_to_one() {
             ControlFlow::Continue(())
         };
         KdTree::build_with_progress(&mesh, &options, &progress).unwrap();
-        let told = told.into_inner().unwrap();
-        assert!(told.is_sorted(), "{options:?}: {told:?}");
-        assert_eq!(told.last(), Some(&1.0), "{options:?}");
-        assert!(told.iter().any(|&fraction| 0.2 < fraction && fraction < 0.8), "{options:?}");
+        rises_to_one(&std::mem::take(&mut *told.lock().unwrap()), &options);
+        Scene::build_with_progress(mesh.clone(), &options, &progress).unwrap();
+        rises_to_one(&told.into_inner().unwrap(), &options);
+    }
+}
+
+fn rises_to_one(told: &[f64], options: &BuildOptions) {
+    assert!(told.is_sorted(), "{options:?}: {told:?}");
+    assert_eq!(told.last(), Some(&1.0), "{options:?}");
+    for step in [0.2, 0.4, 0.6, 0.8] {
+        let near = |&fraction: &f64| step - 0.2 < fraction && fraction < step + 0.2;
+        assert!(told.iter().any(near), "{options:?}: {step} of {told:?}");
+    }
+}
+
+#[test]
+fn wide_trees_are_part_of_the_progress() {
+    let mesh = mesh(random_soup(20_000, 0.02, false, 23));
+    let options = BuildOptions::default();
+    let reports = Mutex::new(vec![]);
+    let keep = |done: kdray::BuildProgress| {
+        reports.lock().unwrap().push(done.fraction);
+        ControlFlow::Continue(())
+    };
+    Scene::build_with_progress(mesh.clone(), &options, &keep).unwrap();
+    let late = reports.into_inner().unwrap().iter().filter(|&&done| done > 0.75).count();
+    assert!(late > 3, "{late} reports of a tree that is being made wide");
+    for stop_after in [0.75, 0.8, 0.9, 0.999] {
+        let last = Mutex::new(0.0);
+        let progress = |done: kdray::BuildProgress| {
+            *last.lock().unwrap() = done.fraction;
+            let stop = done.fraction > stop_after;
+            if stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        };
+        let result = Scene::build_with_progress(mesh.clone(), &options, &progress);
+        assert_eq!(result.err(), Some(BuildError::Cancelled), "{stop_after}");
+        assert!(*last.lock().unwrap() > stop_after);
     }
 }
 

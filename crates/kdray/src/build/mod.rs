@@ -18,7 +18,7 @@ mod options;
 pub(crate) mod parallel;
 mod plane;
 mod preset;
-mod progress;
+pub(crate) mod progress;
 mod reference;
 mod round_robin;
 mod sah;

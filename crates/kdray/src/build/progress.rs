@@ -18,7 +18,7 @@ type Callback<'a> = &'a (dyn Fn(BuildProgress) -> ControlFlow<()> + Sync);
 ///
 /// The root is given [`WHOLE`](Self::WHOLE) units; children share their parent's in proportion to
 /// the primitives they hold, and leaves pay theirs in.
-pub(super) struct Progress<'a> {
+pub(crate) struct Progress<'a> {
     callback: Callback<'a>,
     done: AtomicU64,
     cancelled: AtomicBool,
@@ -28,24 +28,24 @@ pub(super) struct Progress<'a> {
 
 impl<'a> Progress<'a> {
     /// The units of the whole build.
-    pub(super) const WHOLE: u64 = 1 << 32;
+    pub(crate) const WHOLE: u64 = 1 << 32;
 
     /// Units that are worth a report.
     pub(super) const STEP: u64 = Self::WHOLE >> 8;
 
-    pub(super) fn new(callback: Callback<'a>) -> Self {
+    pub(crate) fn new(callback: Callback<'a>) -> Self {
         let (done, cancelled) = (AtomicU64::new(0), AtomicBool::new(false));
         Self { callback, done, cancelled, told: Mutex::new(0) }
     }
 
     /// Whether some thread was told to stop.
-    pub(super) fn check(&self) -> Result<(), BuildError> {
+    pub(crate) fn check(&self) -> Result<(), BuildError> {
         if self.cancelled.load(Relaxed) { Err(BuildError::Cancelled) } else { Ok(()) }
     }
 
     /// Adds `units` to what is done, and reports unless another thread does just now. After the
     /// answer to stop nothing is reported any more.
-    pub(super) fn add(&self, units: u64) -> Result<(), BuildError> {
+    pub(crate) fn add(&self, units: u64) -> Result<(), BuildError> {
         self.done.fetch_add(units, Relaxed);
         if let Ok(mut told) = self.told.try_lock() {
             self.check()?;
@@ -56,5 +56,10 @@ impl<'a> Progress<'a> {
             }
         }
         self.check()
+    }
+
+    /// Adds all that was not yet added.
+    pub(crate) fn finish(&self) -> Result<(), BuildError> {
+        self.add(Self::WHOLE.saturating_sub(self.done.load(Relaxed)))
     }
 }

@@ -8,12 +8,14 @@ use super::plan::{Plan, part_of_leaf};
 use super::treelet::Treelet;
 use super::{Hint, TriangleBlock, WideNode};
 use crate::build::parallel::map_all;
-use crate::build::{BuildError, BuildOptions};
+use crate::build::progress::Progress;
+use crate::build::{BuildError, BuildOptions, BuildProgress};
 use crate::geometry::{Aabb, Coordinate, ROUNDING, TreeSpace};
 use crate::primitives::TriangleMesh;
 use crate::tree::{KdTree, NodeKind};
 use arrayvec::ArrayVec;
 use bytemuck::allocation::zeroed_vec;
+use std::ops::ControlFlow;
 
 /// Room on the kernels' stacks, of which one place is for the end. A tree that needs more is not
 /// made wide.
@@ -36,6 +38,12 @@ pub struct WideTree {
     pub(super) space: TreeSpace,
 }
 
+/// Of all that is to be done, how much it is to find out how to collapse the tree.
+const COLLAPSE_WORK: u64 = Progress::WHOLE / 4;
+
+/// The same for placing nodes and blocks. What is left is that for homes.
+const PLACE_WORK: u64 = Progress::WHOLE / 2;
+
 /// What is known of a subtree once it is placed.
 struct Placed {
     link: Link,
@@ -47,26 +55,44 @@ struct Placer<'a, T: 'static> {
     mesh: &'a TriangleMesh<T>,
     collapse: &'a Collapse<'a>,
     pad: f64,
+    progress: &'a Progress<'a>,
+    /// How many lines are placed in all.
+    lines: usize,
 }
 
 impl WideTree {
     /// The wide form of `tree`, which is one over `mesh`; `boxes` are those around the parts of the
     /// triangles that are listed below each node. `None` if the mesh is larger than 2^32 or smaller
     /// than 2^-32, for the kernels' numbers are f32, or if the tree is larger than 16 GiB or
-    /// needs more than the kernels' stacks.
+    /// needs more than the kernels' stacks. `progress` is told how far it is.
     ///
     /// # Errors
     /// [`BuildError::Memory`] if both trees would take more than the options allow: how many leaves
-    /// list a triangle is only known now.
+    /// list a triangle is only known now. [`BuildError::Cancelled`] if `progress` answers so.
     pub(crate) fn new<T: Coordinate>(
         tree: &KdTree<3>,
         boxes: &[Aabb<3>],
         mesh: &TriangleMesh<T>,
         options: &BuildOptions,
+        progress: &(dyn Fn(BuildProgress) -> ControlFlow<()> + Sync),
+    ) -> Result<Option<Self>, BuildError> {
+        let progress = &Progress::new(progress);
+        let wide = Self::make(tree, boxes, mesh, options, progress)?;
+        progress.finish()?;
+        Ok(wide)
+    }
+
+    fn make<T: Coordinate>(
+        tree: &KdTree<3>,
+        boxes: &[Aabb<3>],
+        mesh: &TriangleMesh<T>,
+        options: &BuildOptions,
+        progress: &Progress<'_>,
     ) -> Result<Option<Self>, BuildError> {
         let Some(reach) = reach(tree.bounds()) else { return Ok(None) };
         let pad = margin(FULL_MARGIN, reach);
         let collapse = &Collapse::new(tree, boxes);
+        progress.add(COLLAPSE_WORK)?;
         let plan = Plan::new(collapse);
         let held =
             size_of_val(tree.nodes()) + size_of_val(&tree.references[..]) + size_of_val(boxes);
@@ -77,9 +103,9 @@ impl WideTree {
         options.check_memory((held + own) as u64)?;
         let mut lines = zeroed_vec(plan.size.lines);
         let mut homes = zeroed_vec::<Home>(plan.size.nodes);
-        let placer = Placer { mesh, collapse, pad };
+        let placer = Placer { mesh, collapse, pad, progress, lines: plan.size.lines };
         let mut room = Room::new(&mut lines, &mut homes);
-        let root = placer.place_node(0, &Site::ROOT, &plan.children, &mut room);
+        let root = placer.place_node(0, &Site::ROOT, &plan.children, &mut room)?;
         debug_assert!(room.is_empty(), "the plan is wrong");
         debug_assert_eq!(root.link, Link::ROOT);
         let arena = Arena::new(lines.into());
@@ -157,7 +183,13 @@ pub(super) fn reach(bounds: &Aabb<3>) -> Option<f32> {
 impl<T: Coordinate> Placer<'_, T> {
     /// Places a node of the binary tree as a wide one, then all below it: those of its children that
     /// are nodes at once if there are `plans` for them.
-    fn place_node(&self, root: u32, site: &Site, plans: &[Plan], room: &mut Room<'_>) -> Placed {
+    fn place_node(
+        &self,
+        root: u32,
+        site: &Site,
+        plans: &[Plan],
+        room: &mut Room<'_>,
+    ) -> Result<Placed, BuildError> {
         let treelet = Treelet::new(self.collapse, root);
         let node_room = room.take_node(site, self.pad);
         let mut placed = ArrayVec::<_, { WideNode::WIDTH }>::new();
@@ -174,15 +206,21 @@ impl<T: Coordinate> Placer<'_, T> {
                 tasks.push((end, site, plan, room.take(plan.size)));
                 None
             } else {
-                Some(self.place_node(end, &site, &[], room))
+                Some(self.place_node(end, &site, &[], room)?)
             });
         }
         let place_apart = |(end, site, plan, mut room): (u32, Site, &Plan, Room<'_>)| {
-            let placed = self.place_node(end, &site, &plan.children, &mut room);
+            self.progress.check()?;
+            let placed = self.place_node(end, &site, &plan.children, &mut room)?;
             debug_assert!(room.is_empty(), "the plan is wrong");
-            placed
+            if plan.children.is_empty() {
+                self.progress.add(PLACE_WORK * plan.size.lines as u64 / self.lines as u64)?;
+            }
+            Ok(placed)
         };
-        let mut apart = map_all(tasks, place_apart).into_iter();
+        let apart = map_all(tasks, place_apart).into_iter();
+        let apart = apart.collect::<Result<Vec<Placed>, BuildError>>()?;
+        let mut apart = apart.into_iter();
 
         let mut node = WideNode::EMPTY;
         let mut stack = 0;
@@ -197,7 +235,7 @@ impl<T: Coordinate> Placer<'_, T> {
         }
         let link = node_room.link;
         node_room.put(node);
-        Placed { link, stack: stack + treelet.ends.len().saturating_sub(1) }
+        Ok(Placed { link, stack: stack + treelet.ends.len().saturating_sub(1) })
     }
 
     /// Places the triangles of a leaf; too many for one link below a node of their own.
@@ -244,12 +282,11 @@ pub(super) mod tests {
     use super::*;
     use crate::build::Preset;
     use rand::{RngExt, SeedableRng};
-    use std::ops::ControlFlow;
 
     pub(in crate::layout) fn wide(mesh: &TriangleMesh, options: &BuildOptions) -> WideTree {
         let go_on = |_| ControlFlow::Continue(());
         let (tree, boxes) = KdTree::build_with_boxes(mesh, options, &go_on).unwrap();
-        WideTree::new(&tree, &boxes, mesh, options).unwrap().unwrap()
+        WideTree::new(&tree, &boxes, mesh, options, &go_on).unwrap().unwrap()
     }
 
     pub(in crate::layout) fn soup(count: usize) -> TriangleMesh {

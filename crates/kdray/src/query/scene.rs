@@ -14,6 +14,9 @@ use crate::tree::KdTree;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
+/// How much of a build the canonical tree is, about, if it is made wide as well.
+const CANONICAL_PART: f64 = 0.75;
+
 /// A triangle mesh with a kd-tree over it, ready for queries from any thread. Clones share both.
 ///
 /// A ray that [`Ray::check`] refuses hits nothing.
@@ -188,8 +191,13 @@ impl<T: Precision> Scene<T> {
         progress: &(dyn Fn(BuildProgress) -> ControlFlow<()> + Sync),
     ) -> Result<Self, BuildError> {
         let (shapes, wide) = if options.cost.block == TriangleBlock::WIDTH {
-            let (tree, boxes) = KdTree::build_with_boxes(&mesh, options, progress)?;
-            let wide = WideTree::new(&tree, &boxes, &mesh, options)?;
+            let tell = |fraction| progress(BuildProgress { fraction });
+            let (tree, boxes) = KdTree::build_with_boxes(&mesh, options, &|done| {
+                tell(CANONICAL_PART * done.fraction)
+            })?;
+            let wide = WideTree::new(&tree, &boxes, &mesh, options, &|done| {
+                tell(CANONICAL_PART + (1.0 - CANONICAL_PART) * done.fraction)
+            })?;
             (ShapeScene::of_tree(mesh, tree), wide)
         } else {
             (ShapeScene::build_with_progress(mesh, options, progress)?, None)

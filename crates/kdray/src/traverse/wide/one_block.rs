@@ -25,7 +25,7 @@ impl<T: Coordinate> OneBlock<T> {
         let one_leaf = BuildOptions { strategy: Strategy::Middle, ..one_leaf };
         let go_on = |_| ControlFlow::Continue(());
         let (tree, boxes) = KdTree::build_with_boxes(mesh, &one_leaf, &go_on).unwrap();
-        let tree = WideTree::new(&tree, &boxes, mesh, &one_leaf).unwrap().unwrap();
+        let tree = WideTree::new(&tree, &boxes, mesh, &one_leaf, &go_on).unwrap().unwrap();
         Self { tree, precision: PhantomData }
     }
 
