@@ -186,7 +186,7 @@ fn ply_point_clouds_have_no_triangles() {
                 property float z\nend_header\n1 2 3\n";
     let model = read_text(Format::Ply, text).unwrap();
     assert_eq!((model.vertices.len(), model.triangles.len()), (1, 0));
-    assert!(model.warnings[0].contains("no triangles"));
+    assert!(model.warnings[0].contains("no triangles (and 1 vertex)"));
 }
 
 #[test]

@@ -189,8 +189,11 @@ impl<'a> MeshBuilder<'a> {
             self.warn(format!("polygons of fewer than three corners passed over: {count}"));
         }
         if self.model.triangles.is_empty() {
-            let count = self.model.vertices.len();
-            self.warn(format!("no triangles (and {count} vertices)"));
+            let vertices = match self.model.vertices.len() {
+                1 => "1 vertex".to_owned(),
+                count => format!("{count} vertices"),
+            };
+            self.warn(format!("no triangles (and {vertices})"));
         }
         self.model
     }
