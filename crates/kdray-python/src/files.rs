@@ -7,11 +7,11 @@ use crate::points::for_points;
 use crate::tree::{Kind, Places, Tree};
 use kdray::TriangleMesh;
 use kdray::file::{AnyScene, HEADER_BYTES, file_bytes};
-use kdray_file::TreeFileError;
+use kdray_file::{Output, TreeFileError};
 use kdray_scene::{LoadError, LoadOptions, Model};
 use pyo3::{PyErr, PyResult, Python, pyclass, pyfunction};
 use std::fs::File;
-use std::io::{self, Read};
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -45,6 +45,17 @@ pub(crate) fn read_mesh(
 pub(crate) fn is_tree_file(py: Python<'_>, path: PathBuf) -> PyResult<bool> {
     let asked = py.detach(|| kdray_file::is_tree_file(&path));
     asked.map_err(|source| refused_file(TreeFileError::Io { path, source }))
+}
+
+/// Writes bytes to a file, which takes the place of an older one when it is whole.
+#[pyfunction]
+pub(crate) fn write_file(py: Python<'_>, path: PathBuf, content: &[u8]) -> PyResult<()> {
+    let written = py.detach(|| {
+        let mut output = Output::create(&path)?;
+        output.file().write_all(content)?;
+        output.commit()
+    });
+    written.map_err(|source| refused_file(TreeFileError::Io { path, source }))
 }
 
 /// Writes a scene of one geometry to a file.

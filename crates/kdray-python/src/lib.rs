@@ -39,6 +39,7 @@ mod _kdray {
     #[pymodule_export]
     use crate::files::{
         Look, file_hash, is_tree_file, load_tree, map_tree, read_mesh, save_tree, tree_hash,
+        write_file,
     };
     #[pymodule_export]
     use crate::mesh::Mesh;

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _kdray
-from .errors import ArgumentError, about_file
+from .errors import ArgumentError
 from .saved import path_of
 
 
@@ -47,7 +47,10 @@ class Picture(np.ndarray[Any, np.dtype[np.uint8]]):
         return self._whole().channels
 
     def save(self, path: str | os.PathLike[str], *, bits: int = 8) -> None:
-        """Writes a PNG of 8 or 16 bits a channel, or all layers as OpenEXR, by the ending of ``path``."""
+        """Writes a PNG of 8 or 16 bits a channel, or all layers as OpenEXR, by the ending of ``path``.
+
+        It takes the place of an older file when it is whole.
+        """
         text = path_of("path", path)
         ending = os.path.splitext(text)[1].lower()
         if bits not in (8, 16):
@@ -58,11 +61,7 @@ class Picture(np.ndarray[Any, np.dtype[np.uint8]]):
             content = self._whole().exr()
         else:
             raise ArgumentError(f"path: {text}: give a name that ends in .png or .exr")
-        try:
-            with open(text, "wb") as file:
-                file.write(content)
-        except OSError as error:
-            raise about_file(text, error) from error
+        _kdray.write_file(text, content)
 
     def _repr_png_(self) -> Optional[bytes]:
         """What notebooks show."""
