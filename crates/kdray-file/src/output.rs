@@ -103,15 +103,16 @@ impl Sink {
         #[cfg(unix)]
         {
             use std::os::unix::fs::PermissionsExt;
-            // As for any new file; the system's mask still applies.
-            builder.permissions(fs::Permissions::from_mode(0o666));
+            // Those of a new file are what the system's mask leaves of all.
+            let mode = found.as_ref().map_or(0o666, |found| found.permissions().mode() & 0o777);
+            builder.permissions(fs::Permissions::from_mode(mode));
         }
         let folder = folder_of(path);
         fs::metadata(folder)?;
         // The kind alone: the message has the temporary name, which says nothing to the user.
         let file = builder.tempfile_in(folder).map_err(|error| io::Error::from(error.kind()))?;
         if let Some(found) = found {
-            // Where the file system has none, there is nothing to keep.
+            // Bits that the system's mask took. Who may read no more than this may as well go on.
             let _ = file.as_file().set_permissions(found.permissions());
         }
         Ok(Self::Temporary(file))
@@ -126,6 +127,10 @@ fn resolved(path: &Path) -> io::Result<PathBuf> {
         if let Ok(found) = fs::canonicalize(&path) {
             return Ok(found);
         }
+        if fs::metadata(&path).is_ok() {
+            // A pipe without a name, such as the standard output may be.
+            return Ok(path);
+        }
         match fs::read_link(&path) {
             Ok(target) => path = folder_of(&path).join(target),
             Err(_) if path.file_name().is_none() || ends_as_folder(&path) => {
@@ -138,7 +143,8 @@ fn resolved(path: &Path) -> io::Result<PathBuf> {
 }
 
 fn ends_as_folder(path: &Path) -> bool {
-    path.as_os_str().as_encoded_bytes().ends_with(b"/")
+    let bytes = path.as_os_str().as_encoded_bytes();
+    bytes.ends_with(b"/") || bytes.ends_with(b"/.")
 }
 
 fn folder_of(path: &Path) -> &Path {

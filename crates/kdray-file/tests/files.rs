@@ -2,7 +2,7 @@
 
 use kdray::file::AnyScene;
 use kdray::{BuildOptions, FileError, Ray, Scene, TriangleMesh};
-use kdray_file::{TreeFileError, is_tree_file, load, load_any, map, map_any, save};
+use kdray_file::{Output, TreeFileError, is_tree_file, load, load_any, map, map_any, save};
 use std::{fs, path::Path};
 use tempfile::TempDir;
 
@@ -195,10 +195,31 @@ fn what_must_not_be_written_to_is_left_alone() -> Done {
     fs::set_permissions(&file, fs::Permissions::from_mode(0o444))?;
     assert!(matches!(save(&scene, &file), Err(TreeFileError::Io { .. })));
     assert_eq!(fs::read(&file)?, b"kept");
-    for path in [folder.path(), &folder.path().join("new/"), Path::new("")] {
+    let (slash, dot) = (folder.path().join("new/"), folder.path().join("new/."));
+    for path in [folder.path(), &slash, &dot, Path::new("")] {
+        assert!(Output::create(path).is_err(), "{path:?}");
         assert!(matches!(save(&scene, path), Err(TreeFileError::Io { .. })), "{path:?}");
     }
     assert_eq!(fs::read_dir(folder.path())?.count(), 1);
+    Ok(())
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_pipe_without_a_name_is_written_to() -> Done {
+    use std::os::fd::AsRawFd;
+    let (folder, scene) = saved(3);
+    let (mut reader, writer) = std::io::pipe()?;
+    let path = Path::new("/dev/fd").join(writer.as_raw_fd().to_string());
+    let read = std::thread::spawn(move || {
+        let mut bytes = Vec::new();
+        std::io::Read::read_to_end(&mut reader, &mut bytes).map(|_| bytes)
+    });
+    let result = save(&scene, &path);
+    drop(writer);
+    let bytes = read.join().expect("the reader ends")?;
+    result?;
+    assert_eq!(bytes, fs::read(folder.path().join("tree"))?);
     Ok(())
 }
 
