@@ -14,8 +14,8 @@ pub(super) struct Asked {
 }
 
 impl Asked {
-    /// Whether this one may not have been asked yet: surely not so only of the first few. Where it does no harm to ask
-    /// again, that is faster than to know.
+    /// Whether this one may not have been asked yet; false is certain, and true may be wrong of all but the first few. Where
+    /// it does no harm to ask again, that is faster than to know.
     pub(super) fn may_be_new(&mut self, id: u32) -> bool {
         let may_be_new = !self.first.contains(&id);
         if may_be_new && !self.first.is_full() {

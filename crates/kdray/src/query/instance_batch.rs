@@ -32,9 +32,8 @@ impl<T: Precision> InstancedScene<T> {
         let (mut walk, mut asked) = (self.walk(ray), Asked::default());
         while let Some(leaf) = walk.next_leaf(ray.interval.t_max, &mut ()) {
             for &id in leaf.primitives {
-                if asked.is_new(id)
-                    && let Some((geometry, carried)) = self.carry(id, ray)
-                {
+                if self.sees(id) && asked.is_new(id) {
+                    let (geometry, carried) = self.carry(id, ray);
                     ask(id, geometry, &carried);
                 }
             }

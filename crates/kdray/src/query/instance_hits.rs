@@ -22,13 +22,15 @@ pub struct InstanceHits<'a, T: 'static = f32> {
     walk: LeafWalk<'a, 3>,
     /// Instances that were come to.
     begun: Asked,
-    /// The hits of each of them after its next one.
+    /// The hits of those that are waiting, after their next one.
     rests: Vec<AllHits<'a, TriangleMesh<T>, 3>>,
+    /// Places among them whose hits have come to an end.
+    free: Vec<usize>,
     /// The next hits of those that have one, the first of which is on top.
     waiting: BinaryHeap<Waiting>,
 }
 
-/// The next hit of an instance, and where those after it are: they are many bytes, and stay where they are.
+/// The next hit of an instance, and where those after it are: they are many bytes, which the heap does not move.
 #[derive(Debug)]
 struct Waiting {
     next: InstanceHit,
@@ -38,8 +40,9 @@ struct Waiting {
 impl<'a, T: Precision> InstanceHits<'a, T> {
     pub(super) fn new(scene: &'a InstancedScene<T>, ray: &Ray, rule: HitRule) -> Self {
         let walk = scene.walk(ray);
-        let (begun, rests, waiting) = (Asked::default(), Vec::new(), BinaryHeap::new());
-        Self { scene, ray: *ray, rule, walk, begun, rests, waiting }
+        let (begun, waiting) = (Asked::default(), BinaryHeap::new());
+        let (rests, free) = (Vec::new(), Vec::new());
+        Self { scene, ray: *ray, rule, walk, begun, rests, free, waiting }
     }
 
     /// Begins with the instances of the next leaf; false if there is none.
@@ -48,21 +51,34 @@ impl<'a, T: Precision> InstanceHits<'a, T> {
             return false;
         };
         for &id in leaf.primitives {
-            if self.begun.is_new(id)
-                && let Some((geometry, carried)) = self.scene.carry(id, &self.ray)
-            {
-                let mut rest = match self.rule {
-                    HitRule::Crossing => geometry.all_hits(&carried),
-                    HitRule::Touching => geometry.all_touched(&carried),
-                };
-                if let Some(hit) = rest.next() {
-                    let next = self.scene.found(id, hit);
-                    self.waiting.push(Waiting { next, rest: self.rests.len() });
-                    self.rests.push(rest);
-                }
+            if self.scene.sees(id) && self.begun.is_new(id) {
+                self.begin(id);
             }
         }
         true
+    }
+
+    fn begin(&mut self, id: u32) {
+        let (geometry, carried) = self.scene.carry(id, &self.ray);
+        let mut rest = match self.rule {
+            HitRule::Crossing => geometry.all_hits(&carried),
+            HitRule::Touching => geometry.all_touched(&carried),
+        };
+        if let Some(hit) = rest.next() {
+            let next = self.scene.found(id, hit);
+            let rest = self.keep(rest);
+            self.waiting.push(Waiting { next, rest });
+        }
+    }
+
+    /// Puts hits into a place, which it tells.
+    fn keep(&mut self, rest: AllHits<'a, TriangleMesh<T>, 3>) -> usize {
+        if let Some(place) = self.free.pop() {
+            self.rests[place] = rest;
+            return place;
+        }
+        self.rests.push(rest);
+        self.rests.len() - 1
     }
 }
 
@@ -104,8 +120,30 @@ impl<T: Precision> Iterator for InstanceHits<'_, T> {
         let found = first.next;
         match self.rests[first.rest].next() {
             Some(hit) => first.next = self.scene.found(found.instance_id, hit),
-            None => drop(PeekMut::pop(first)),
+            None => self.free.push(PeekMut::pop(first).rest),
         }
         Some(found)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{BuildOptions, Instance, Scene};
+
+    #[test]
+    fn what_has_ended_makes_room() {
+        let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0_f32]];
+        let mesh = TriangleMesh::from_soup([corners]).unwrap();
+        let geometry = Scene::build(mesh, &BuildOptions::default()).unwrap();
+        let row = (0..1000).map(|i| {
+            let to_world =
+                [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, f64::from(i)]];
+            Instance { to_world, ..Instance::of(0) }
+        });
+        let scene = InstancedScene::build(vec![geometry], row.collect()).unwrap();
+        let mut hits = scene.all_hits(&Ray::new([0.25, 0.25, -1.0], [0.0, 0.0, 1.0]));
+        assert_eq!(hits.by_ref().count(), 1000);
+        assert!(hits.rests.len() < 10, "{}", hits.rests.len());
     }
 }

@@ -156,10 +156,10 @@ impl<T: Precision> InstancedScene<T> {
         let (mut ray, mut closest, mut asked) = (*ray, None::<InstanceHit>, Asked::default());
         while let Some(leaf) = walk.next_leaf(ray.interval.t_max, &mut ()) {
             for &id in leaf.primitives {
-                if !asked.may_be_new(id) {
+                if !self.sees(id) || !asked.may_be_new(id) {
                     continue;
                 }
-                let Some((geometry, carried)) = self.carry(id, &ray) else { continue };
+                let (geometry, carried) = self.carry(id, &ray);
                 let found = geometry.closest_hit(&carried).map(|hit| self.found(id, hit));
                 if let Some(found) = found
                     && closest.is_none_or(|closest| found.precedes(&closest))
@@ -179,8 +179,10 @@ impl<T: Precision> InstancedScene<T> {
         let (mut walk, mut asked) = (self.walk(ray), Asked::default());
         while let Some(leaf) = walk.next_leaf(ray.interval.t_max, &mut ()) {
             let mut is_hit = |id: u32| {
-                asked.may_be_new(id)
-                    && self.carry(id, ray).is_some_and(|(geometry, ray)| geometry.any_hit(&ray))
+                self.sees(id) && asked.may_be_new(id) && {
+                    let (geometry, carried) = self.carry(id, ray);
+                    geometry.any_hit(&carried)
+                }
             };
             if leaf.primitives.iter().any(|&id| is_hit(id)) {
                 return true;
@@ -215,19 +217,21 @@ impl<T: Precision> InstancedScene<T> {
         LeafWalk::seen_as(&self.parts.tree, ray, in_tree, &mut ())
     }
 
-    /// The geometry of an instance, and the ray in its space; `None` if this scene's rays do not see it.
-    pub(super) fn carry(&self, id: u32, ray: &Ray) -> Option<(&Scene<T>, Ray)> {
+    /// Whether this scene's rays see an instance.
+    pub(super) fn sees(&self, id: u32) -> bool {
+        self.parts.instances[id as usize].mask & self.mask != 0
+    }
+
+    /// The geometry of an instance, and the ray in its space.
+    pub(super) fn carry(&self, id: u32, ray: &Ray) -> (&Scene<T>, Ray) {
         let instance = &self.parts.instances[id as usize];
-        if instance.mask & self.mask == 0 {
-            return None;
-        }
         let to_object = &self.parts.to_object[id as usize];
         let carried = Ray {
             origin: to_object.transform_point3(ray.origin.into()).into(),
             direction: to_object.transform_vector3(ray.direction.into()).into(),
             interval: ray.interval,
         };
-        Some((&self.parts.geometries[instance.geometry_id as usize], carried))
+        (&self.parts.geometries[instance.geometry_id as usize], carried)
     }
 
     pub(super) fn found(&self, instance_id: u32, hit: Hit) -> InstanceHit {
