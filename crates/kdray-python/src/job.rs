@@ -70,6 +70,20 @@ impl Job {
         Ok(answer)
     }
 
+    /// Answers so many questions: up to `few` at once on this thread, where handing them to others would take longer,
+    /// unless somebody is told how far it is.
+    pub(crate) fn answer<R: Send>(
+        &self,
+        py: Python<'_>,
+        (count, few): (usize, usize),
+        work: impl FnOnce(&Control) -> PyResult<R> + Send,
+    ) -> PyResult<R> {
+        if count <= few && self.progress.is_none() {
+            return py.detach(|| caught(|| work(&Control::default())));
+        }
+        self.run(py, count as u64, work)
+    }
+
     fn watched<R: Send>(
         &self,
         control: &Control,
@@ -112,14 +126,6 @@ impl Job {
         let Some(progress) = &self.progress else { return Ok(()) };
         progress.call1(py, (done, total)).map(drop)
     }
-}
-
-/// Does little work at once on this thread, where handing it to others would take longer.
-pub(crate) fn at_once<R: Send>(
-    py: Python<'_>,
-    work: impl FnOnce(&Control) -> PyResult<R> + Send,
-) -> PyResult<R> {
-    py.detach(|| caught(|| work(&Control::default())))
 }
 
 fn caught<R>(work: impl FnOnce() -> PyResult<R>) -> PyResult<R> {

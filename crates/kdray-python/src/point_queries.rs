@@ -3,7 +3,7 @@
 use crate::closest_point::{self as nearest, Arrays};
 use crate::columns::Real;
 use crate::error::{ArgumentError, argument};
-use crate::job::{self, Control, Job};
+use crate::job::{Control, Job};
 use crate::points::{self, Points, Surface, each_block, each_point, for_points};
 use crate::rows::Floats;
 use crate::tree::Tree;
@@ -11,7 +11,7 @@ use kdray::Side;
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1, PyUntypedArrayMethods};
 use pyo3::{Bound, Py, PyAny, PyResult, Python, pyfunction};
 
-/// Points that are fewer than this are answered at once, on the thread that asks.
+/// So many points are answered at once, on the thread that asks.
 const FEW: usize = 64;
 
 /// Whether each point is inside or on the surface.
@@ -183,8 +183,5 @@ fn run<R: Send>(
     count: usize,
     work: impl FnOnce(&Control) -> PyResult<R> + Send,
 ) -> PyResult<R> {
-    match count {
-        ..=FEW => job::at_once(py, work),
-        count => job.run(py, count as u64, work),
-    }
+    job.answer(py, (count, FEW), work)
 }

@@ -6,7 +6,7 @@ use crate::build;
 use crate::cast::Found;
 use crate::closest_hit::closest_hit;
 use crate::columns::Arrays;
-use crate::job::{self, Control, Job};
+use crate::job::{Control, Job};
 use crate::mesh::{Mesh, rows};
 use crate::rays::{RayArguments, Rays};
 use crate::surface;
@@ -116,7 +116,7 @@ impl Places {
     }
 }
 
-/// Rays that are fewer than this are answered at once, on the thread that asks.
+/// So many rays are answered at once, on the thread that asks.
 const FEW: usize = 512;
 
 #[pymethods]
@@ -305,15 +305,12 @@ impl Tree {
     }
 }
 
-/// Asks about rays: about a few at once.
+/// Asks about rays, about a few at once.
 fn run<R: Send>(
     py: Python<'_>,
     job: &Job,
     rays: &Rays<'_>,
     work: impl FnOnce(&Control) -> PyResult<R> + Send,
 ) -> PyResult<R> {
-    match rays.len() {
-        ..=FEW => job::at_once(py, work),
-        len => job.run(py, len as u64, work),
-    }
+    job.answer(py, (rays.len(), FEW), work)
 }

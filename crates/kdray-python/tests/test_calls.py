@@ -123,6 +123,13 @@ def test_progress_is_told(ball):
     assert told[-1][0] == told[-1][1] > 0
 
 
+def test_progress_of_few_is_told():
+    ball, told = kdray.Scene(*sphere(10)), []
+    ball.count(random_rays(3), progress=lambda done, total: told.append((done, total)))
+    ball.contains(random_rays(4)[:, :3], progress=lambda done, total: told.append((done, total)))
+    assert (3, 3) in told and told[-1] == (4, 4)
+
+
 def test_what_the_progress_function_raises_ends_the_call(large):
     def tell(done, total):
         raise LookupError("enough")
