@@ -1,6 +1,7 @@
 //! Collects vertices and polygons into a model.
 
 use super::repeated::Repeated;
+use super::rounding::coarse_step;
 use super::triangulate::{MAX_CONCAVE_CORNERS, triangulate};
 use crate::formats::Request;
 use crate::{LoadError, Model, Place};
@@ -194,6 +195,12 @@ impl<'a> MeshBuilder<'a> {
                 count => format!("{count} vertices"),
             };
             self.warn(format!("no triangles (and {vertices})"));
+        }
+        if let Some(step) = coarse_step(&self.model) {
+            self.warn(format!(
+                "vertices are rounded to f32, which has steps of {step:?} so far from zero: what is finer is lost; \
+                 move the mesh to zero beforehand"
+            ));
         }
         self.model
     }

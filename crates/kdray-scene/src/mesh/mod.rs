@@ -2,6 +2,7 @@
 
 mod builder;
 mod repeated;
+mod rounding;
 mod triangulate;
 mod weld;
 
