@@ -132,10 +132,12 @@ fn advice(error: &BuildError) -> &'static str {
 
 /// The same for a tree file.
 fn file_advice(error: &TreeFileError) -> &'static str {
-    if matches!(error, TreeFileError::Memory { .. }) {
-        " (options --trusted and --memory-limit)"
-    } else {
-        ""
+    match error {
+        TreeFileError::Memory { .. } => " (options --trusted and --memory-limit)",
+        TreeFileError::File { source: FileError::Precision { .. }, .. } => {
+            " (the command takes f32 only; those of f64 are for Rust and Python)"
+        }
+        _ => "",
     }
 }
 

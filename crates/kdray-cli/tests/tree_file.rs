@@ -85,6 +85,19 @@ fn a_tree_file_is_verified() {
 }
 
 #[test]
+fn tree_files_of_f64_are_for_others() {
+    let folder = folder();
+    let corners = [[0.1, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0_f64]];
+    let mesh = kdray::TriangleMesh::from_soup([corners]).expect("it is finite");
+    let scene = kdray::Scene::build(mesh, &kdray::BuildOptions::default()).expect("it is small");
+    kdray_file::save(&scene, &folder.path("double.kdray")).expect("it can be written");
+    for trusted in [&[][..], &["--trusted"]] {
+        let ran = folder.kdray(&[&["stats", "double.kdray"], trusted].concat());
+        ran.fails(INPUT, &["double.kdray", "of 64 bits", "the command takes f32 only"]);
+    }
+}
+
+#[test]
 fn bad_tree_files_are_refused() {
     let folder = folder();
     change(&folder, "flipped.kdray", |bytes| bytes[260] ^= 1);
