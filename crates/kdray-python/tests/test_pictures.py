@@ -96,7 +96,9 @@ def test_parts_are_arrays_only(cube, tmp_path):
     assert (tmp_path / "a.png").read_bytes() == picture._repr_png_()
     assert (tmp_path / "a.exr").read_bytes()[:4] == b"\x76\x2f\x31\x01"
     (tmp_path / "link.png").symlink_to(tmp_path / "a.png")
-    cube.render(**SMALL, background=(1, 0, 0)).save(tmp_path / "link.png")
+    with open(tmp_path / "a.png", "rb") as older:
+        cube.render(**SMALL, background=(1, 0, 0)).save(tmp_path / "link.png")
+        assert older.read() == picture._repr_png_()
     assert (tmp_path / "link.png").is_symlink()
     assert (tmp_path / "a.png").read_bytes() != picture._repr_png_()
     assert {path.name for path in tmp_path.iterdir()} == {"a.png", "a.exr", "link.png"}
