@@ -49,7 +49,7 @@ class Picture(np.ndarray[Any, np.dtype[np.uint8]]):
     def save(self, path: str | os.PathLike[str], *, bits: int = 8) -> None:
         """Writes a PNG of 8 or 16 bits a channel, or all layers as OpenEXR, by the ending of ``path``.
 
-        It takes the place of an older file when it is whole.
+        It takes the place of an older file when it is whole, for which the folder must be one that may be written to.
         """
         text = path_of("path", path)
         ending = os.path.splitext(text)[1].lower()

@@ -59,7 +59,10 @@ class RayQueries:
         threads: Optional[int] = None,
         progress: Progress = None,
     ) -> Hits:
-        """The hit of least t of each ray; of several at the same t, the one of the smallest triangle."""
+        """The hit of least t of each ray; of several at the same t, the one of the smallest triangle.
+
+        What a ray touches counts, edges and vertices, too.
+        """
         rays, lenient = Rays.of(origins, directions, t_min, t_max), is_lenient(invalid)
         with telling(progress, "ray") as told:
             tree = self._built(threads)
@@ -85,7 +88,10 @@ class RayQueries:
         threads: Optional[int] = None,
         progress: Progress = None,
     ) -> NDArray[np.bool_]:
-        """Whether each ray hits anything: whether it is occluded. Faster than ``closest_hit``."""
+        """Whether each ray hits anything: whether it is occluded. Faster than ``closest_hit``.
+
+        What a ray touches counts, so that there may be a hit where ``count`` is 0.
+        """
         rays, lenient = Rays.of(origins, directions, t_min, t_max), is_lenient(invalid)
         with telling(progress, "ray") as told:
             found = self._built(threads).any_hit(
@@ -112,7 +118,7 @@ class RayQueries:
     ) -> AllHits:
         """Every crossing of a surface, once, by rising t: at an edge that triangles share, one of them.
 
-        ``limit`` is the most that are kept of each ray: its first.
+        ``limit`` is the most that are kept of each ray: its first. It saves memory, not time.
         """
         rays, lenient = Rays.of(origins, directions, t_min, t_max), is_lenient(invalid)
         most = whole_or_none("limit", limit)

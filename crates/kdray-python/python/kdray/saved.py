@@ -68,6 +68,8 @@ class Saving:
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the mesh and its tree to a file, which takes the place of an older one when it is whole.
 
+        A file holds one geometry without instances; other scenes are refused (``SceneError``, ``UnsupportedError``).
+
         The tree is built if need be. The same triangles and options give the same bytes. Afterwards the scene can
         be pickled, by reference to this file.
         """

@@ -45,7 +45,7 @@ class Scene(RayQueries, PointQueries, Rendering, Saving):
 
     - ``t_min``, ``t_max``: the part of each ray that counts, in lengths of its direction; numbers, or arrays that
       are broadcast with the rays.
-    - ``mask``: bits; only instances that share one are seen.
+    - ``mask``: bits; only instances that share one are seen, and geometries without instances, always.
     - ``invalid``: ``"raise"`` refuses rays and points that are not finite, or directions of zeros; ``"miss"``
       has them hit nothing.
     - ``threads``: how many; without it those of the environment variable ``KDRAY_THREADS``, or all.
@@ -107,7 +107,7 @@ class Scene(RayQueries, PointQueries, Rendering, Saving):
         """Adds a mesh as a geometry. Returns its id.
 
         It is a ``trimesh.Trimesh``, an Open3D mesh of either kind, or the path of an OBJ, PLY, STL, OFF, glTF or
-        GLB file, which may be compressed (.gz, .zst). ``drop_bad`` drops triangles of the file with indices out of
+        GLB file, which may be compressed (.gz, .zst) and is read as f32. ``drop_bad`` drops triangles of the file with indices out of
         range or vertices that are not finite, with a warning, instead of refusing the file.
         """
         if not isinstance(mesh, (str, os.PathLike)):

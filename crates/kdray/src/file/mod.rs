@@ -23,7 +23,7 @@
 //! |---|---|---|
 //! | header: magic, version, its checksum, the scene's precision, sizes that fit the file | yes | yes |
 //! | structure: whatever an index, a link or a loop relies on | yes | yes |
-//! | vertices are finite | yes | yes |
+//! | vertices that triangles use are finite | yes | yes |
 //! | the checksum of all bytes (XXH3, 64 bits) | no | yes |
 //! | the canonical tree: every invariant of [`KdTree::validate`](crate::KdTree::validate) | no | yes |
 //! | the wide tree: that it is one of the canonical tree and the mesh | no | yes |

@@ -74,8 +74,8 @@ fn share(volume: f64, below: f64) -> f64 {
 ///
 /// Seen from there, the ends of that edge are a and b in nearly opposite directions, of length one here like c. What
 /// is small in both is m = a x b. As a + b = 2·((b − a) x m) / |b − a|², below = (m · m + (c x b) · m − (c x a) · m) / (1 − a · b);
-/// and volume = c · m. All these products are summed without rounding, from the corners as they are, and none cancels
-/// in the sum of them. Of several edges as close, in a thin triangle, the closest is taken.
+/// and volume = c · m. The cross products and the volume are summed without rounding, from the corners as they are; what
+/// cancels in the dot products is small beside the volume. Of several edges as close, in a thin triangle, the closest is taken.
 #[cold]
 fn beside_edge(point: [f64; 3], corners: [[f64; 3]; 3]) -> f64 {
     let ends = corners.map(|corner| End::of(point, corner));

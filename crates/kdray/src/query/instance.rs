@@ -190,7 +190,7 @@ impl Instance {
         if self.is_mirrored() { -normal } else { normal }
     }
 
-    /// Whether the matrix turns left to right. The front of a triangle is its front all the same.
+    /// Whether the matrix, one that can be placed, turns left to right. The front of a triangle is its front all the same.
     pub fn is_mirrored(&self) -> bool {
         scaled(&affine(&self.to_world).matrix3).0.determinant() < 0.0
     }

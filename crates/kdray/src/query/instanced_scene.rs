@@ -23,6 +23,10 @@ use thiserror::Error;
 ///
 /// An instance takes some 230 bytes.
 ///
+/// It answers about rays: closest, any and all hits, counts, and many rays at once. For a condition take the first of
+/// [`all_touched`](Self::all_touched) that it holds for. About points, by hints, and from tree files only a geometry's
+/// [`Scene`] answers.
+///
 /// Geometries are all in f32, or all in f64. In f64 instances may be anywhere, and the tree over them is in
 /// coordinates of its own, as that over an f64 mesh is ([`tree_space`](Self::tree_space)); what was said of the
 /// largest coordinate is so of the scene's size.

@@ -137,13 +137,15 @@ impl<T: Precision> Scene<T> {
         &self.trees.shapes
     }
 
-    /// The hit of least t; of several at the same t, the one of the smallest primitive id.
+    /// The hit of least t; of several at the same t, the one of the smallest primitive id. What the ray touches
+    /// counts ([`HitRule::Touching`](crate::primitives::HitRule::Touching)), edges and vertices, too.
     #[must_use]
     pub fn closest_hit(&self, ray: &Ray) -> Option<Hit> {
         T::closest_hit(self, ray)
     }
 
-    /// Whether there is any hit: whether `ray.interval` is occluded.
+    /// Whether there is any hit: whether `ray.interval` is occluded. What the ray touches counts, so that there may be
+    /// one where [`count`](Self::count) is 0.
     #[must_use]
     pub fn any_hit(&self, ray: &Ray) -> bool {
         T::any_hit(self, ray)
