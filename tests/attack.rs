@@ -25,7 +25,8 @@ fn outcomes(
 ) -> Vec<Outcome> {
     let limits = Limits { rays, until: None };
     let (is_stopped, progress) = (&|| false, &|_, _: &str| {});
-    Campaign { targets, seed: 7, limits, is_stopped, progress, shrink, tamper }.run()
+    Campaign { targets, seed: 7, rays_only: false, limits, is_stopped, progress, shrink, tamper }
+        .run()
 }
 
 fn assert_right(targets: Vec<AnyTarget>, rays: u64) {

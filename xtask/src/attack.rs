@@ -22,12 +22,15 @@ pub(crate) struct Options {
     /// Only targets of f32 vertices, or only those of f64 ones.
     #[arg(long, value_parser = ["f32", "f64"])]
     precision: Option<String>,
+    /// Only rays: no points, copies and files, and trees are not compared.
+    #[arg(long)]
+    rays_only: bool,
     /// Only targets that are made by code, and 20,000 rays.
     #[arg(long)]
     quick: bool,
     /// Instead ask Embree, Open3D, trimesh and other crates, too, about the same rays at closed meshes: 10,000
     /// hard ones and as many ordinary ones at each, or --rays. Fetches packages from PyPI.
-    #[arg(long, conflicts_with_all = ["minutes", "targets", "precision", "quick"])]
+    #[arg(long, conflicts_with_all = ["minutes", "targets", "precision", "rays_only", "quick"])]
     peers: bool,
 }
 
@@ -48,6 +51,7 @@ pub(crate) fn run(options: &Options) -> Result<(), String> {
         option("--precision", options.precision.as_ref()),
     ]
     .concat();
+    given.extend(options.rays_only.then(|| "--rays-only".to_owned()));
     given.extend(options.quick.then(|| "--quick".to_owned()));
     Steps::new().check("attack", "attack", given)
 }

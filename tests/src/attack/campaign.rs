@@ -69,6 +69,8 @@ pub struct Campaign<'a> {
     pub targets: Vec<AnyTarget>,
     /// What all chance depends on.
     pub seed: u64,
+    /// Whether nothing else is asked about, and trees are not compared.
+    pub rays_only: bool,
     /// When to end.
     pub limits: Limits,
     /// Whether someone wants it to end.
@@ -166,6 +168,9 @@ impl Campaign<'_> {
                 outcome.case = Some(SmallCase::of(case.smallest(self.tamper, self.shrink)));
             }
             outcome.tally = std::mem::take(&mut outcome.tally).and(tally);
+        }
+        if self.rays_only {
+            return;
         }
         let visit = Visit { target, flat, scene: &scene, gunner, numbers, seed: self.seed };
         let others = visit.other_queries();

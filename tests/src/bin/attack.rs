@@ -57,6 +57,7 @@ fn main() -> io::Result<ExitCode> {
     let campaign = Campaign {
         targets,
         seed,
+        rays_only: arguments.has("--rays-only"),
         limits: Limits {
             rays,
             until: minutes.map(|m| started + Duration::from_secs_f64(60.0 * m)),
