@@ -20,6 +20,7 @@ mod short_directions_of_packets;
 mod sign_of_zero;
 mod slivers_beside_points;
 mod slivers_under_points;
+mod t_beyond_f64;
 mod target_from_the_wrong_end;
 mod targets_before_planes;
 mod targets_of_rays_from_afar;

@@ -122,7 +122,9 @@ impl Aim {
         // so that no product with it is NaN.
         let t_end = reach * (2.5 * LARGEST_COMPONENT);
         let &Line { scale, shift, moving, .. } = line;
-        let (t_min, t_max) = (ray.interval.t_min * scale, ray.interval.t_max * scale);
+        // A hit has a finite t, which in the tree's coordinates is less than any.
+        let t_min = ray.interval.t_min.max(f64::MIN) * scale;
+        let t_max = ray.interval.t_max.min(f64::MAX) * scale;
         // Of the ray's own numbers: what is smaller may vanish.
         let is_open = ray.interval.t_min <= ray.interval.t_max
             && t_min < f64::INFINITY
