@@ -25,6 +25,7 @@ mod target_from_the_wrong_end;
 mod targets_before_planes;
 mod targets_of_rays_from_afar;
 mod ties_where_rays_begin;
+mod tiny_triangles_of_packets;
 mod triangles_left_out_of_sums;
 mod underflow_in_a_long_triangle;
 mod underflow_of_bounds;

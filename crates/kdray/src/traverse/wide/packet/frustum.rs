@@ -44,6 +44,7 @@ impl<S: Lanes> Frustum<S> {
     /// from 1 to the next f32 and C the largest coordinate of the centre, a plane's z is off by
     /// 2 u (R + C) + u C at most, and so is a side's place, but for a relative 5 u of slope · z and for
     /// 3 u R of a base. So planes are moved outward by 8 u (R + C), and slopes by a relative 8 u.
+    /// Where z is below zero, as only along a common direction, the latter moves them inward, by less than the former leaves.
     #[inline(always)]
     pub(super) fn new(simd: S, frame: &Frame, reach: f32, spans: [Span; 2], z_near: f32) -> Self {
         let all = |x: f32| f32x8::splat(simd, x);

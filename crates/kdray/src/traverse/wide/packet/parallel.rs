@@ -115,6 +115,7 @@ impl Projection for Parallel {
     /// from the centre and L that of a ray's origin: x and y are off by 6 u L and at most 2 L; A and B of
     /// ab and ca are at most 2 ē, C at most 8 ē M, of bc twice as much and 8 ē² more; forms are rounded
     /// four times. So they are off by (56 ē (L + M)) u, that of bc by (112 ē (L + M) + 32 ē²) u.
+    /// A and B that underflow are off by 2^-150 each, and so the forms by 2^-148 L more.
     ///
     /// Where den is above 2^-22 ē², what f64 loses in the form of w is below 4 u (ē + M + L); the slopes A
     /// and B of w are off by 4 u of themselves and x and y by 6 u L: in all 28 u L times the slope; and
@@ -134,7 +135,8 @@ impl Projection for Parallel {
         let edges = [signed(ab, den), signed(bc, den), signed(ca, den)];
         let (edge, distance) = (narrow(13), narrow(14));
         let size = edge + distance + self.farthest;
-        let edge_error = (edge * size).mul_add(all(EDGE_ERROR), all(UNDERFLOW));
+        let underflow = UNDERFLOW + self.farthest * f32::MIN_POSITIVE;
+        let edge_error = (edge * size).mul_add(all(EDGE_ERROR), all(underflow));
         let least = (edge * edge).mul_add(all(LEAST_DEN), all(UNDERFLOW));
         let good = den.abs().simd_gt(least);
         let slope = depth[0].abs().max(depth[1].abs());
