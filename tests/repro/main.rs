@@ -1,6 +1,7 @@
 //! One file for each bug that was fixed, named for what it was.
 
 mod angles_beside_corners;
+mod areas_of_rounding;
 mod areas_that_vanish;
 mod crossings_where_rays_begin;
 mod depths_out_of_range;

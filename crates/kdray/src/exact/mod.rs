@@ -20,6 +20,7 @@
 //! triangles, and they are not crossed, for the moved ray is parallel to them. This is Edelsbrunner and Mücke's simulation of simplicity (1990), applied to the ray.
 
 mod accumulator;
+mod area;
 mod edge;
 mod edge_signs;
 mod hit_values;
@@ -30,6 +31,7 @@ mod segment;
 
 pub(crate) use accumulator::not_vanished;
 pub use accumulator::{Accumulator, Scaled};
+pub use area::has_area;
 pub use edge::{
     cross_component, directed_edges, edge_function, moved_side_sign, side_of_ray, volume,
 };

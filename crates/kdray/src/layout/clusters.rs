@@ -1,8 +1,9 @@
 //! Triangles in clusters, each with what it looks like from afar (Barill et al. 2018).
 
 use super::moments::Moments;
+use crate::exact::has_area;
 use crate::geometry::Coordinate;
-use crate::primitives::{Primitives, TriangleMesh, in_range};
+use crate::primitives::{Primitives, TriangleMesh};
 use glam::DVec3;
 
 /// Triangles in a cluster that is not cut.
@@ -123,10 +124,9 @@ impl Piece {
     }
 }
 
-/// Whether an area that is computed as zero is only so small.
+/// Whether an area that is computed as zero is one all the same.
 fn has_tiny_area<T: Coordinate>(mesh: &TriangleMesh<T>, id: u32) -> bool {
-    let ([a, b, c], _) = in_range(mesh.corners(id).map(|p| p.map(T::to_f64)));
-    (b - a).cross(c - a) != DVec3::ZERO
+    has_area(mesh.corners(id).map(|p| p.map(T::to_f64)))
 }
 
 /// Appends the cluster of `pieces`, which stand from `first` to `last` in the list of all, and those

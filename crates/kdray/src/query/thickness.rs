@@ -1,17 +1,21 @@
 //! How thick the material behind a surface is.
 
 use super::{Precision, Scene};
+use crate::exact::has_area;
 use crate::geometry::Ray;
 use crate::primitives::{Side, in_range};
 
 /// A weight this small counts as none: what u and v of hits may be off by.
 const NO_WEIGHT: f64 = 1.0 / (1u64 << 30) as f64;
 
+/// A sine for which rounding leaves digits of the normal.
+const THIN: f64 = 1.0 / (1u64 << 40) as f64;
+
 impl<T: Precision> Scene<T> {
     /// How far it is from a point of a triangle, straight through the material behind it, to the
     /// next surface. The point has the barycentric weights u and v, as hits and closest points have
     /// them; `side` is the side that is seen from outside, and the way leads off the other side, at
-    /// a right angle. This is what trimesh calls thickness by the method `ray`.
+    /// a right angle, as far as the triangle's vertices tell it: those of a sliver may not. This is what trimesh calls thickness by the method `ray`.
     ///
     /// The triangle that the point lies on is not met again, and if the point lies on its edge or
     /// in its corner, nor are the others there: all triangles that have the same corners, of those
@@ -68,7 +72,12 @@ impl<T: Precision> Scene<T> {
     fn inward(&self, primitive_id: u32, [u, v]: [f64; 2], side: Side) -> Option<Ray> {
         let corners = self.mesh().corners(primitive_id).map(|p| p.map(T::to_f64));
         let ([a, b, c], scale) = in_range(corners);
-        let normal = (b - a).cross(c - a).try_normalize()?;
+        let normal = (b - a).cross(c - a);
+        let is_thin = normal.length() <= THIN * (b - a).length() * (c - a).length();
+        if is_thin && !has_area(corners) {
+            return None;
+        }
+        let normal = normal.try_normalize()?;
         let unit = self.mesh().tree_space().scale();
         let direction = if side == Side::Front { -normal } else { normal } / unit;
         let origin = a + (u * (b - a) + v * (c - a));
