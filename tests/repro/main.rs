@@ -14,6 +14,7 @@ mod needles_in_tree_files;
 mod order_of_waiting_nodes;
 mod overflow_in_the_filter;
 mod overflow_of_t;
+mod rays_resumed_without_interval;
 mod rounded_way_to_a_target;
 mod shares_beside_edges;
 mod sheets_on_columns;

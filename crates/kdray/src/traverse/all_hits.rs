@@ -49,7 +49,9 @@ impl<'a, P: Intersect<K>, const K: usize, T: Trace> AllHits<'a, P, K, T> {
         trace: T,
     ) -> Self {
         let Interval { t_min, t_max } = ray.interval;
-        let rest = ray.with_interval(t_min.max(last.t), t_max);
+        // A NaN stays one, and hits nothing.
+        let t_min = if last.t > t_min { last.t } else { t_min };
+        let rest = ray.with_interval(t_min, t_max);
         Self { last: Some(*last), ..Self::new(tree, primitives, &rest, rule, trace) }
     }
 
