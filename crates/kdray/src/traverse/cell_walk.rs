@@ -13,7 +13,7 @@ const ERROR: f64 = 8.0 * f64::EPSILON;
 ///
 /// It is conservative: no leaf is left out whose closed cell is within the limit, whatever rounds. A
 /// gap of zero is exact, so that a limit of zero yields the leaves whose closed cells hold the
-/// point, and no others.
+/// point, and those nearer than 2^-537.
 #[derive(Clone, Debug)]
 pub struct CellWalk<'a, const K: usize> {
     tree: &'a KdTree<K>,
@@ -46,7 +46,8 @@ impl<'a, const K: usize> CellWalk<'a, K> {
     /// The primitives of the next leaf whose cell is within `limit` of the point.
     #[inline]
     pub fn next_leaf(&mut self, limit: f64) -> Option<&'a [u32]> {
-        let limit = limit * limit;
+        // Squares may vanish.
+        let limit = limit * limit + if limit > 0.0 { f64::MIN_POSITIVE } else { 0.0 };
         let is_within = |gaps: &[f64; K]| (1.0 - ERROR) * squared(gaps) <= limit;
         let Waiting { mut node, gaps } = loop {
             let waiting = self.stack.pop()?;
