@@ -10,9 +10,9 @@ use std::io::{self, Read};
 use std::path::Path;
 use std::sync::Arc;
 
-/// To load a file takes so many times its length: for its content, and for what verifying it takes
-/// meanwhile.
-const MEMORY: u64 = 2;
+/// To load a file takes so many times its length at most: for its content, and for what verifying it takes
+/// meanwhile, above all 32 bytes a leaf, of which a file has 16 and more.
+const MEMORY: u64 = 3;
 
 /// Whether a file begins as a tree file does.
 ///
@@ -30,7 +30,7 @@ pub fn is_tree_file(path: &Path) -> io::Result<bool> {
 /// file, and does not change with it. Its coordinates must be of the scene's precision; [`load_any`] takes
 /// either.
 ///
-/// Takes about as long as a build, and twice the length of the file in memory; if that is more than
+/// Takes about as long as a build, and three times the length of the file in memory at most; if that is more than
 /// `memory_limit`, if any, the file is refused before it is read.
 ///
 /// # Errors

@@ -88,7 +88,7 @@ class Saving:
     ) -> Scene:
         """The scene of a tree file, all of which is read and verified: whoever made it, answers are right.
 
-        Takes about as long as a build, and twice the file's size in memory; if that is more than ``memory_limit``
+        Takes about as long as a build, and three times the file's size in memory at most; if that is more than ``memory_limit``
         bytes, the file is refused.
         """
         text = os.path.abspath(path_of("path", path))

@@ -39,7 +39,8 @@ impl<const K: usize> KdTree<K> {
         if nodes == 0 {
             return Err(TreeError::NoRoot);
         }
-        let mut leaves = Vec::new();
+        // Half of the nodes, and one.
+        let mut leaves = Vec::with_capacity(nodes / 2 + 1);
         let mut waiting = vec![Cell { node: 0, depth: 0, bounds: self.bounds }];
         let mut expected = 0;
         while let Some(Cell { node, depth, bounds }) = waiting.pop() {
