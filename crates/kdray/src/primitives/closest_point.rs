@@ -7,7 +7,8 @@ use glam::DVec3;
 /// The point of a surface that is nearest to a given point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ClosestPoint {
-    /// The nearest point, rounded; where the distance is zero, the given point.
+    /// The nearest point, rounded; the given point where the distance is zero, or less than 2^-46 of the way to the
+    /// triangle's farthest corner.
     pub point: [f64; 3],
     /// How far it is from the given point. Zero exactly where that lies on the triangle; else it
     /// errs by 2^-46 of the distance from there to the triangle's farthest corner at most, usually

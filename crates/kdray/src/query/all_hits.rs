@@ -27,7 +27,8 @@ impl<T: Precision> Scene<T> {
     }
 
     /// How many surfaces the ray crosses: the number of [`all_hits`](Self::all_hits). On a closed
-    /// mesh it is even for a ray from outside without end, and odd for one from inside.
+    /// mesh it is even for a ray from outside without end, and odd for one from inside, unless the direction is so
+    /// short that some t is beyond f64.
     #[must_use]
     pub fn count(&self, ray: &Ray) -> usize {
         T::crossed(self, ray).len()
