@@ -73,3 +73,21 @@ impl<'a, const K: usize> CellWalk<'a, K> {
 fn squared<const K: usize>(gaps: &[f64; K]) -> f64 {
     gaps.iter().map(|gap| gap * gap).sum()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::build::{BuildOptions, Preset};
+    use crate::primitives::TriangleMesh;
+
+    #[test]
+    fn a_cell_is_within_a_limit_whose_square_vanishes() {
+        let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0_f32]];
+        let mesh = TriangleMesh::from_soup([corners]).unwrap();
+        let tree = KdTree::build(&mesh, &BuildOptions::preset(Preset::Fast)).unwrap();
+        for (gap, limit, is_within) in [(1.6e-162, 2.78e-162, true), (1e-100, 1e-101, false)] {
+            let leaf = CellWalk::new(&tree, [-gap; 3]).next_leaf(limit);
+            assert_eq!(leaf.is_some(), is_within, "{gap:e}");
+        }
+    }
+}
