@@ -32,8 +32,7 @@ use thiserror::Error;
 /// largest coordinate is so of the scene's size.
 ///
 /// The direction is carried as well. One that is beyond the range of f64 then, as one of 1e308 is in a copy at a tenth of
-/// the size, or that vanishes, misses that instance;
-/// one below 10^-300 or so there has few digits left.
+/// the size, or that vanishes, misses that instance. One with components below 2^-1022 there has lost digits.
 ///
 /// ```
 /// use kdray::{BuildOptions, Instance, InstancedScene, Ray, Scene, TriangleMesh};
