@@ -4,6 +4,7 @@ use crate::error::{ArgumentError, BuildError, argument};
 use crate::job::{Control, Job};
 use crate::mesh::{AnyMesh, Mesh, refused};
 use crate::tree::{Kind, Places, Tree};
+use kdray::query::InstancedSceneError;
 use kdray::query::Precision;
 use kdray::tree::MAX_DEPTH;
 use kdray::{BuildOptions, BuildProgress, Coordinate, Instance, InstancedScene, Preset, Scene};
@@ -78,11 +79,10 @@ pub(crate) fn build_instanced(
     options: &BuildOptions,
     job: &Job,
 ) -> PyResult<Tree> {
-    /// What an instance takes, with its node.
-    const INSTANCE_BYTES: u64 = 230;
     let placed = copies.len() as u32;
-    let needed =
-        options.peak_bytes(count(meshes)) + INSTANCE_BYTES * (copies.len() + meshes.len()) as u64;
+    let needed = options.peak_bytes(count(meshes))
+        + InstancedScene::<f32>::peak_bytes(copies.len() + meshes.len())
+        + (copies.len() * size_of::<(u32, [[f64; 4]; 3], u32)>()) as u64;
     if let Some(limit) = options.memory_limit.filter(|&limit| needed > limit) {
         let error = kdray::BuildError::Memory { needed, limit };
         return Err(BuildError::new_err(error.to_string()));
@@ -114,7 +114,14 @@ fn placed_copies<T: Precision>(
     let as_they_are = ids.filter(|id| !has_copy.contains(id)).map(Instance::of);
     let placed = |&(geometry_id, to_world, mask)| Instance { geometry_id, to_world, mask };
     let instances = copies.iter().map(placed).chain(as_they_are).collect();
-    InstancedScene::build(geometries, instances).map_err(|error| argument("transform", error))
+    let go_on =
+        |_| if control.is_stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
+    InstancedScene::build_with_progress(geometries, instances, None, &go_on).map_err(|error| {
+        match error {
+            InstancedSceneError::Build(error) => BuildError::new_err(error.to_string()),
+            error => argument("transform", error),
+        }
+    })
 }
 
 /// How many triangles there are.

@@ -11,6 +11,9 @@ import_exception!(kdray.errors, MissingFileError);
 import_exception!(kdray.errors, SceneError);
 import_exception!(kdray.errors, UnsupportedError);
 
+/// What callers say who take rays and points as they come.
+pub(crate) const LENIENT: &str = "invalid=\"miss\"";
+
 /// What became of a panic: a mistake of kdray, told as an exception.
 pub(crate) fn of_panic(payload: &(dyn Any + Send)) -> PyErr {
     let text = payload.downcast_ref::<&str>().map(|text| (*text).to_owned());

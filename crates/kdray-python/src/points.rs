@@ -1,6 +1,6 @@
 //! Questions about points.
 
-use crate::error::{ArgumentError, UnsupportedError};
+use crate::error::{ArgumentError, LENIENT, UnsupportedError};
 use crate::job::{Control, each_part};
 use crate::rows::Rows;
 use kdray::{Precision, Scene, Side};
@@ -44,7 +44,7 @@ impl<'a> Points<'a> {
         let is_bad = |point: &[f64; 3]| !point.iter().all(|x| x.is_finite());
         match points.iter().position(is_bad).filter(|_| !self.lenient) {
             Some(index) => Err(ArgumentError::new_err(format!(
-                "{}: that of index {} is not finite",
+                "{}: that of index {} is not finite; with {LENIENT} such points are nowhere",
                 self.name,
                 first + index
             ))),

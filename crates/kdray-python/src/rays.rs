@@ -1,6 +1,6 @@
 //! Rays of a caller.
 
-use crate::error::ArgumentError;
+use crate::error::{ArgumentError, LENIENT};
 use crate::rows::{Floats, Rows};
 use kdray::{Interval, Ray, RayError};
 use pyo3::{PyErr, PyResult};
@@ -128,14 +128,15 @@ impl<'a> Lines<'a> {
             Self::Together(_) => ["rays: the origin", "rays: the direction"],
             Self::Apart(..) => ["origins: that", "directions: that"],
         };
-        ArgumentError::new_err(match error {
+        let reason = match error {
             RayError::Origin => format!("{origin} of ray {index} is not finite"),
             RayError::Direction => format!("{direction} of ray {index} is not finite"),
             RayError::ZeroDirection => format!("{direction} of ray {index} is zero"),
             _ => {
                 format!("t_min, t_max: a bound of ray {index} is NaN; use infinity for an open end")
             }
-        })
+        };
+        ArgumentError::new_err(format!("{reason}; with {LENIENT} such rays hit nothing"))
     }
 }
 

@@ -1,5 +1,7 @@
 //! What the triangles of a scene are: vertices, faces, normals, points.
 
+use crate::block::BLOCK;
+use crate::job::{Control, each_part};
 use crate::mesh::rows;
 use crate::tree::{Kind, Places, Tree};
 use glam::DVec3;
@@ -128,8 +130,8 @@ pub(crate) fn faces(tree: &Tree) -> Vec<[u32; 3]> {
 }
 
 /// Unit normals; NaN where there is no such triangle, or it has no area.
-pub(crate) fn normals(tree: &Tree, ids: Ids<'_>) -> Vec<[f64; 3]> {
-    each(tree, ids, |_, placed| {
+pub(crate) fn normals(tree: &Tree, ids: Ids<'_>, control: &Control) -> PyResult<Vec<[f64; 3]>> {
+    each(tree, ids, control, |_, placed| {
         let [a, b, c] = placed.corners.map(DVec3::from);
         let [ab, ac] = [b - a, c - a].map(|edge| placed.turned(edge));
         // Scaled, so that neither squares nor products leave the range of f64.
@@ -144,8 +146,9 @@ pub(crate) fn positions(
     tree: &Tree,
     ids: Ids<'_>,
     [u, v]: [ArrayView1<'_, f64>; 2],
-) -> Vec<[f64; 3]> {
-    each(tree, ids, |index, placed| {
+    control: &Control,
+) -> PyResult<Vec<[f64; 3]>> {
+    each(tree, ids, control, |index, placed| {
         let [a, b, c] = placed.corners.map(|corner| placed.moved(corner));
         let (u, v) = (*u.get(index)?, *v.get(index)?);
         Some([0, 1, 2].map(|k| (1.0 - u - v) * a[k] + u * b[k] + v * c[k]))
@@ -176,23 +179,34 @@ impl Placed {
 fn each(
     tree: &Tree,
     [primitives, geometries, instances]: Ids<'_>,
-    find: impl Fn(usize, Placed) -> Option<[f64; 3]>,
-) -> Vec<[f64; 3]> {
+    control: &Control,
+    find: impl Fn(usize, Placed) -> Option<[f64; 3]> + Send + Sync,
+) -> PyResult<Vec<[f64; 3]>> {
     let meshes = meshes(tree);
-    let ids = primitives.iter().zip(geometries).zip(instances);
-    let found = ids.enumerate().map(|(index, ((&primitive, &geometry), &instance))| {
-        find(index, place(tree, &meshes, primitive, geometry, instance)?)
-    });
-    found.map(|vector| vector.unwrap_or([f64::NAN; 3])).collect()
+    let one = |index: usize| {
+        let ids = (*primitives.get(index)?, *geometries.get(index)?, *instances.get(index)?);
+        find(index, place(tree, &meshes, ids)?)
+    };
+    let mut vectors = vec![[f64::NAN; 3]; primitives.len()];
+    let parts = vectors.chunks_mut(BLOCK).enumerate().collect();
+    each_part(
+        control,
+        parts,
+        || (),
+        |(), (index, vectors): (usize, &mut [[f64; 3]])| {
+            let places = vectors.iter_mut().enumerate();
+            places.for_each(|(i, place)| *place = one(index * BLOCK + i).unwrap_or([f64::NAN; 3]));
+            Ok(())
+        },
+    )?;
+    Ok(vectors)
 }
 
 /// The triangle where its instance puts it; none if there is no such triangle.
 fn place(
     tree: &Tree,
     meshes: &[AMesh<'_>],
-    primitive: i32,
-    geometry: i32,
-    instance: i32,
+    (primitive, geometry, instance): (i32, i32, i32),
 ) -> Option<Placed> {
     let (primitive, geometry) = (u32::try_from(primitive).ok()?, usize::try_from(geometry).ok()?);
     let (mesh, id) = match &tree.places {

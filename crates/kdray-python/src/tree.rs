@@ -11,7 +11,7 @@ use crate::mesh::{Mesh, rows};
 use crate::rays::{RayArguments, Rays};
 use crate::surface;
 use kdray::{InstancedScene, Scene};
-use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
+use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1, PyUntypedArrayMethods};
 use pyo3::{Bound, Py, PyAny, PyResult, Python, pyclass, pymethods};
 use std::sync::Arc;
 
@@ -187,7 +187,9 @@ impl Tree {
         instance_id: PyReadonlyArray1<'py, i32>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let ids = [&primitive_id, &geometry_id, &instance_id].map(PyReadonlyArray1::as_array);
-        rows(py, &py.detach(|| surface::normals(self, ids)))
+        let (job, count) = (Job::new(None, None)?, primitive_id.len());
+        let work = |control: &Control| surface::normals(self, ids, control);
+        rows(py, &job.answer(py, (count, FEW), work)?)
     }
 
     /// The points of triangles that have these weights.
@@ -202,7 +204,9 @@ impl Tree {
     ) -> PyResult<Bound<'py, PyAny>> {
         let ids = [&primitive_id, &geometry_id, &instance_id].map(PyReadonlyArray1::as_array);
         let weights = [u.as_array(), v.as_array()];
-        rows(py, &py.detach(|| surface::positions(self, ids, weights)))
+        let (job, count) = (Job::new(None, None)?, primitive_id.len());
+        let work = |control: &Control| surface::positions(self, ids, weights, control);
+        rows(py, &job.answer(py, (count, FEW), work)?)
     }
 
     /// The closest hit of each ray.

@@ -6,6 +6,7 @@ import subprocess
 import sys
 import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
@@ -66,18 +67,73 @@ def test_other_threads_run_meanwhile(large):
 
 def test_many_threads_may_ask_and_the_first_builds():
     scene, rays = kdray.Scene(*sphere(40)), random_rays(5000)
-    answers = [None] * 8
-
-    def ask(index):
-        answers[index] = scene.closest_hit(rays).t
-
-    threads = [threading.Thread(target=ask, args=(i,)) for i in range(8)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
+    with ThreadPoolExecutor(8) as threads:
+        answers = list(threads.map(lambda _: scene.closest_hit(rays).t, range(8)))
     for answer in answers:
         np.testing.assert_array_equal(answer, answers[0])
+
+
+@pytest.mark.parametrize("way", ["this thread", "another thread"])
+def test_a_call_does_not_wait_for_another(large, way):
+    told, many, few = [], np.broadcast_to(random_rays(1)[0], (10**8, 6)), random_rays(2000)
+    expected = large.any_hit(few, threads=1)
+
+    def tell(done, total):
+        """Asks once, and ends the call when it is told again, if the call goes on."""
+        told.append(done)
+        if len(told) > 1 and done < total:
+            raise LookupError("goes on")
+        if len(told) == 1 and way == "this thread":
+            np.testing.assert_array_equal(large.any_hit(few, threads=1), expected)
+        elif len(told) == 1:
+            with ThreadPoolExecutor(1) as other:
+                np.testing.assert_array_equal(other.submit(large.any_hit, few, threads=1).result(), expected)
+
+    with pytest.raises(LookupError, match="goes on"):
+        large.any_hit(many, threads=1, progress=tell)
+
+
+def test_threads_are_not_shared_by_calls_but_kept_for_the_next():
+    if not os.path.exists("/proc/self/task"):
+        pytest.skip("the system does not list threads")
+    program = (
+        "import kdray, numpy as np, os\n"
+        "scene = kdray.Scene([[0, 0, 2], [1, 0, 2], [0, 1, 2]], [[0, 1, 2]])\n"
+        "few, many = np.ones((5000, 6)), np.broadcast_to(np.ones(6), (10**8, 6))\n"
+        "def workers():\n"
+        "    names = {task: open(f'/proc/self/task/{task}/comm').read() for task in os.listdir('/proc/self/task')}\n"
+        "    return {task for task, name in names.items() if name.startswith('kdray')}\n"
+        "def tell(done, total):\n"
+        "    assert len(workers()) == 1\n"
+        "    scene.any_hit(few, threads=1)\n"
+        "    both.update(workers())\n"
+        "    raise LookupError\n"
+        "both = set()\n"
+        "try:\n"
+        "    scene.any_hit(many, threads=1, progress=tell)\n"
+        "except LookupError:\n"
+        "    scene.any_hit(few, threads=1)\n"
+        "print(len(both), both == workers())\n"
+    )
+    told = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert told.stdout.split() == ["2", "True"]
+
+
+@pytest.mark.parametrize("name", ["normal", "position"])
+def test_normals_and_positions_are_computed_as_queries_are(name):
+    if not os.path.exists("/proc/self/task"):
+        pytest.skip("the system does not list threads")
+    program = (
+        "import kdray, numpy as np, os, sys\n"
+        "scene = kdray.Scene([[0, 0, 2], [1, 0, 2], [0, 1, 2]], [[0, 1, 2]]).build(threads=1)\n"
+        "hits = scene.closest_hit(np.tile([0.25, 0.25, 0, 0, 0, 1], (5000, 1)), threads=1)\n"
+        f"assert (hits.{name}[..., 2] >= 1).all()\n"
+        "names = [open(f'/proc/self/task/{task}/comm').read() for task in os.listdir('/proc/self/task')]\n"
+        "print(sum(name.startswith('kdray') for name in names))\n"
+    )
+    run, threads = [sys.executable, "-c", program], {"KDRAY_THREADS": "3"}
+    told = subprocess.run(run, env=os.environ | threads, capture_output=True, text=True, check=True)
+    assert int(told.stdout) == 1 + 3
 
 
 @pytest.mark.parametrize("query", ["closest_hit", "any_hit", "count", "all_hits"])
@@ -193,6 +249,18 @@ def test_meshes_of_other_packages():
         scene = kdray.Scene.of(mesh)
         assert scene.dtype == dtype and scene.count([0.3, 0.2, -1, 0, 0, 1]) == 2
     assert kdray.Scene.of(Trimesh(), dtype=np.float32).dtype == np.float32
+
+
+def test_modules_beside_the_package_are_imported_where_they_are_named():
+    program = (
+        "import sys, kdray\n"
+        "names = ['kdray.dask', 'kdray.open3d', 'kdray.trimesh']\n"
+        "assert not set(names) & set(sys.modules)\n"
+        "kdray.open3d.RaycastingScene(), kdray.trimesh.RayMeshIntersector, kdray.dask.closest_hit\n"
+        "assert set(names) < set(sys.modules)\n"
+        "assert not hasattr(kdray, 'pytorch3d')\n"
+    )
+    subprocess.run([sys.executable, "-c", program], check=True)
 
 
 def test_importing_is_quick_and_needs_numpy_alone():

@@ -1,5 +1,6 @@
 """Mesh files, tree files, pickles."""
 
+import copy
 import errno
 import json
 import os
@@ -148,11 +149,41 @@ def test_bad_mesh_files(tmp_path):
     holed = write_obj(tmp_path / "holed.obj", faces=np.vstack([CUBE_FACES, [[0, 1, 99]]]))
     fails(kdray.FileError, str(holed), kdray.Scene.of, holed)
     scene = kdray.Scene()
-    with pytest.warns(UserWarning, match="drop"):
+    with pytest.warns(UserWarning, match="drop") as warned:
         scene.add(holed, drop_bad=True)
     assert len(scene) == 12
+    assert str(warned[0].message).count(str(holed)) == 1 and warned[0].filename == __file__
     scene.build().save(tmp_path / "tree.kdray")
     fails(kdray.ArgumentError, "mesh", kdray.Scene().add, tmp_path / "tree.kdray")
+
+
+def test_warnings_point_to_the_caller(tmp_path):
+    with pytest.warns(UserWarning, match="no triangles") as warned:
+        kdray.Scene.of(write_obj(tmp_path / "points.obj", faces=[]))
+    assert warned[0].filename == __file__
+
+
+def test_answers_are_pickled_without_their_scene(cube):
+    rays = random_rays(60).reshape(6, 10, 6)
+    hits, every, nearest = cube.closest_hit(rays), cube.all_hits(rays), cube.closest_point(rays[..., :3])
+    for copied in (lambda it: pickle.loads(pickle.dumps(it)), copy.deepcopy, copy.copy):
+        again = copied(hits)
+        for name in ("t", "primitive_id", "geometry_id", "instance_id", "normal", "position"):
+            np.testing.assert_array_equal(getattr(again, name), getattr(hits, name))
+            for part in (np.s_[2], np.s_[..., 3], np.s_[1, 2], hits.hit):
+                np.testing.assert_array_equal(getattr(again[part], name), getattr(hits[part], name))
+        np.testing.assert_array_equal(copied(every).ray_id, every.ray_id)
+        np.testing.assert_array_equal(copied(every)[3:9].position, every[3:9].position)
+        assert copied(every).counts.shape == (6, 10)
+        np.testing.assert_array_equal(copied(nearest).normal, nearest.normal)
+        np.testing.assert_array_equal(cube.thickness(again), cube.thickness(hits))
+
+
+def test_a_built_scene_is_its_own_copy(cube):
+    for copied in (copy.copy, copy.deepcopy):
+        fails(kdray.SceneError, "the scene is not built", copied, kdray.Scene(CUBE_VERTICES, CUBE_FACES))
+    cube.build()
+    assert copy.copy(cube) is copy.deepcopy([cube])[0] is cube
 
 
 def test_figures(cube):

@@ -160,13 +160,22 @@ def test_rays_of_a_pinhole_camera_by_its_field_of_view():
         (lambda s: s.compute_distance(np.zeros((2, 2))), "query_points"),
         (lambda s: s.compute_occupancy(np.zeros((2, 3)), nsamples=2), "nsamples"),
         (lambda s: s.cast_rays(RAYS, nthreads=-1), "nthreads"),
-        (lambda s: s.add_triangles(SHEETS, [[0, 1, 9]]), "faces"),
+        (lambda s: s.cast_rays(RAYS, nthreads=10**4), "nthreads"),
+        (lambda s: s.test_occlusions(RAYS, tnear=None), "tnear"),
+        (lambda s: s.test_occlusions(RAYS, tfar="far"), "tfar"),
+        (lambda s: s.add_triangles(SHEETS, [[0, 1, 9]]), "triangle_indices"),
+        (lambda s: s.add_triangles(SHEETS, [[0, 1, 2], [0, 1]]), "triangle_indices"),
+        (lambda s: s.add_triangles(SHEETS * np.float32(np.nan), [[0, 1, 2]]), "vertex_positions"),
+        (lambda s: s.add_triangles("bunny.ply"), "vertex_positions: .*kdray.Scene.of"),
+        (lambda s: s.add_triangles(mesh=5), "mesh: int"),
         (lambda s: s.create_rays_pinhole(0, [0, 0, 1], [0, 0, 0], [0, 1, 0], 3, 2), "fov_deg"),
+        (lambda s: s.create_rays_pinhole("60", [0, 0, 1], [0, 0, 0], [0, 1, 0], 3, 2), "fov_deg"),
+        (lambda s: s.create_rays_pinhole([[1], [2, 3]], np.eye(4), 3, 2), "intrinsic_matrix"),
         (lambda s: s.create_rays_pinhole(60, [0, 1, 0], [0, 0, 0], [0, 1, 0], 3, 2), "up"),
         (lambda s: s.create_rays_pinhole(np.zeros((3, 3)), np.eye(4), 3, 2), "intrinsic_matrix"),
         (lambda s: s.create_rays_pinhole(np.eye(3), np.eye(4), 0, 2), "width_px"),
     ],
 )
 def test_errors_name_the_argument(sheets, call, name):
-    with pytest.raises(kdray.KdrayError, match=name):
+    with pytest.raises(kdray.KdrayError, match=f"^{name}"):
         call(sheets)

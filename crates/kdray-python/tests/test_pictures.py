@@ -84,6 +84,16 @@ def test_all_layers(cube):
     assert layers["cost.nodes"].max() > 0 and all(values.shape == (32, 48) for values in layers.values())
 
 
+def test_a_picture_is_read_only_and_a_copy_is_not(cube, tmp_path):
+    picture = cube.render(**SMALL)
+    with pytest.raises(ValueError, match="read-only"):
+        picture[:] = 0
+    changed = picture.copy()
+    changed[:] = 0
+    fails(kdray.ArgumentError, "picture", changed.save, tmp_path / "a.png")
+    assert picture.any()
+
+
 def test_parts_are_arrays_only(cube, tmp_path):
     picture = cube.render(**SMALL)
     part = picture[4:8]
@@ -130,7 +140,10 @@ def test_bad_input(cube):
     ]  # fmt: skip
     for name, options in cases:
         fails(wrong, name, cube.render, **({"width": 8, "height": 8} | options))
-    for name, options in [("width", {"width": 8.0}), ("fov", {"fov": "wide"}), ("eye", {"eye": "here"})]:
+    for name, options in [
+        ("width", {"width": 8.0}), ("fov", {"fov": "wide"}), ("eye", {"eye": "here"}), ("exposure", {"exposure": None}),
+        ("exposure", {"exposure": np.complex64(1)}), ("crop", {"crop": 5}), ("sample_range", {"sample_range": 1}),
+    ]:  # fmt: skip
         fails(mistyped, name, cube.render, **options)
     for scene in (kdray.Scene(CUBE_VERTICES.astype(float), CUBE_FACES),):
         with pytest.raises(kdray.UnsupportedError):

@@ -64,6 +64,10 @@ def test_thickness(cube):
     assert cube.thickness([0.4, 0.3, 1.25]) == 1
     np.testing.assert_array_equal(cube.thickness(cube.closest_point([[0.3, 0.2, -1]])), [1])
     fails(kdray.ArgumentError, "side", cube.thickness, [0.3, 0.2, -1], side="top")
+    fails(kdray.ArgumentTypeError, "side", cube.thickness, [0.3, 0.2, -1], side=1)
+    fails(kdray.ArgumentError, "at: give", cube.thickness, [0.3, 0.2])
+    fails(kdray.ArgumentError, "at: that of index 1 is not finite", cube.thickness, [[0, 0, 0], [NAN, 0, 0]])
+    np.testing.assert_array_equal(cube.thickness([[0.4, 0.3, 1.25], [NAN, 0, 0]], invalid="miss"), [1, NAN])
 
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
@@ -113,7 +117,7 @@ def test_bad_input(cube, points):
         fails(wrong, "invalid", ask, [0, 0, 0], invalid="x")
         bad = points.copy()
         bad[1500, 2] = np.inf
-        fails(wrong, "points: that of index 1500 is not finite", ask, bad)
+        fails(wrong, 'points: that of index 1500 is not finite; with invalid="miss"', ask, bad)
     fails(wrong, "a, b", cube.visible, np.zeros((2, 3)), np.zeros((5, 3)))
     fails(wrong, "b", cube.visible, np.zeros((2, 3)), np.zeros(4))
     fails(wrong, "b: that of index 0", cube.visible, [0, 0, 0], [0, 0, NAN])
@@ -131,7 +135,8 @@ def test_vertices_of_f64_are_not_rounded():
     corner = np.array([500_000.0, 5_400_000.0, 0.001])
     scene = kdray.Scene(corner + CUBE_VERTICES.astype(float) / 1024, CUBE_FACES)
     nearest = scene.closest_point(corner + [1 / 2048, 1 / 2048, -1 / 1024])
-    assert abs(nearest.distance - 1 / 1024) < 1e-9 and scene.thickness(nearest) - 1 / 1024 < 1e-9
+    assert abs(nearest.distance - 1 / 1024) < 1e-9
+    assert abs(scene.thickness(nearest) - 1 / 1024) < 1e-9
     inside = corner + [[1 / 2048] * 3, [1 / 512] * 3]
     np.testing.assert_array_equal(scene.contains(inside), [True, False])
     np.testing.assert_array_equal(scene.winding_number(inside), [1, 0])

@@ -5,12 +5,14 @@ import inspect
 import pickle
 import subprocess
 import sys
+import warnings
 from pathlib import Path
 
 import numpy as np
 import pytest
 import trimesh
 import trimesh.ray.ray_triangle
+from test_errors import fails
 
 import kdray
 from kdray.trimesh import RayMeshIntersector
@@ -73,9 +75,14 @@ def test_at_most_so_many_hits():
     )
     rays = ([[0.1, 0.2, -1]], [[0, 0, 1]])
     mesh = RayMeshIntersector(sheets)
-    assert len(mesh.intersects_id(*rays)[0]) == 100
+    with pytest.warns(UserWarning, match="max_hits: a ray has 100 hits") as warned:
+        assert len(mesh.intersects_id(*rays)[0]) == 100
+        mesh.intersects_location(*rays)
+    assert [warning.filename for warning in warned] == [__file__] * 2
     assert len(mesh.intersects_id(*rays, max_hits=120)[0]) == 120
-    assert len(mesh.intersects_id(*rays, max_hits=3)[0]) == 3
+    with warnings.catch_warnings(action="error"):
+        assert len(mesh.intersects_id(*rays, max_hits=3)[0]) == 3
+        assert len(mesh.intersects_id(*rays, multiple_hits=False)[0]) == 1
 
 
 def test_arguments_have_the_names_and_places_of_trimesh():
@@ -92,8 +99,10 @@ def test_arguments_have_the_names_and_places_of_trimesh():
     for name, arguments in wanted.items():
         signature = inspect.signature(getattr(RayMeshIntersector, name))
         assert list(signature.parameters)[: len(arguments)] == arguments
-    theirs = trimesh.ray.ray_triangle.RayMeshIntersector
-    assert all(hasattr(RayMeshIntersector, name) and hasattr(theirs, name) for name in methods)
+    for name in methods:
+        theirs = inspect.signature(getattr(trimesh.ray.ray_triangle.RayMeshIntersector, name)).parameters
+        ours = inspect.signature(getattr(RayMeshIntersector, name)).parameters
+        assert set(theirs) - {"kwargs"} <= set(ours), name
 
 
 def test_a_mesh_that_changed_has_another_tree(ball):
@@ -103,6 +112,16 @@ def test_a_mesh_that_changed_has_another_tree(ball):
     ball.apply_translation([5, 0, 0])
     assert not ball.ray.intersects_any([[0, 0, -5]], [[0, 0, 1]])[0]
     assert ball.ray.intersects_any([[5, 0, -5]], [[0, 0, 1]])[0]
+
+
+def test_triangles_are_looked_through_once_a_mesh(ball, monkeypatch):
+    bounds, looked = kdray.Scene.bounds, []
+    monkeypatch.setattr(kdray.Scene, "bounds", property(lambda scene: looked.append(scene) or bounds.fget(scene)))
+    for _ in range(3):
+        ball.ray.intersects_any([[0, 0, -5]], [[0, 0, 1]])
+    ball.apply_translation([5, 0, 0])
+    ball.ray.intersects_first([[0, 0, -5]], [[0, 0, 1]])
+    assert len(looked) == 2
 
 
 def test_copies_answer_alike(ball):
@@ -133,6 +152,9 @@ def test_errors_name_the_argument(ball):
         ball.ray.intersects_first([[0, 0]], [[0, 0]])
     with pytest.raises(ValueError, match="points"):
         ball.ray.contains_points([0, 0, 0])
+    fails(kdray.ArgumentTypeError, "ray_origins", ball.ray.intersects_any, [[0, 0, 0], [1]], [[0, 0, 1]] * 2)
+    for error, most in [(kdray.ArgumentError, -1), (kdray.ArgumentTypeError, 2.5)]:
+        fails(error, "max_hits", ball.ray.intersects_id, [[0, 0, -5]], [[0, 0, 1]], max_hits=most)
     assert issubclass(kdray.ArgumentError, ValueError)
 
 

@@ -7,6 +7,8 @@
 (2.0, 0)
 """
 
+from typing import TYPE_CHECKING
+
 from .closest_points import ClosestPoints
 from .errors import (
     ArgumentError,
@@ -22,6 +24,21 @@ from .errors import (
 from .hits import AllHits, Hits
 from .picture import Picture
 from .scene import Scene
+
+if TYPE_CHECKING:
+    from . import dask as dask
+    from . import open3d as open3d
+    from . import trimesh as trimesh
+else:
+
+    def __getattr__(name):
+        """Modules that not everybody needs, imported where they are first named."""
+        from importlib import import_module
+
+        if name in ("dask", "open3d", "trimesh"):
+            return import_module(f"{__name__}.{name}")
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
 
 __all__ = [
     "AllHits",

@@ -12,6 +12,9 @@ from .errors import ArgumentError, ArgumentTypeError
 FloatArray = NDArray[np.floating[Any]]
 """An array of f32 or f64."""
 
+MOST_DIMENSIONS = 31
+"""The compiled part reads arrays of 32, of which bounds of t get one here."""
+
 
 def floats(name: str, values: ArrayLike) -> FloatArray:
     """Any numbers as an array of f32 or f64, without a copy if they are one.
@@ -20,6 +23,8 @@ def floats(name: str, values: ArrayLike) -> FloatArray:
     the caller calls them.
     """
     array = _array(name, values)
+    if array.ndim > MOST_DIMENSIONS:
+        raise ArgumentError(f"{name}: give an array of at most {MOST_DIMENSIONS} dimensions, not {array.ndim}")
     if array.dtype.kind not in "fiub":
         raise ArgumentTypeError(f"{name}: give real numbers, not an array of {array.dtype}")
     if array.dtype.newbyteorder("=") not in (np.float32, np.float64):
@@ -29,12 +34,20 @@ def floats(name: str, values: ArrayLike) -> FloatArray:
     return array
 
 
-def vectors(name: str, values: ArrayLike, width: int = 3) -> FloatArray:
-    """The same of vectors: an array of shape (..., width)."""
+def vectors(name: str, values: ArrayLike, width: int = 3, others: str = "") -> FloatArray:
+    """The same of vectors: an array of shape (..., width). ``others`` is what else the caller may give."""
     array = floats(name, values)
     if array.ndim == 0 or array.shape[-1] != width:
-        raise ArgumentError(f"{name}: give an array of shape (..., {width}), not {array.shape}")
+        raise ArgumentError(f"{name}: give an array of shape (..., {width}), not {array.shape}{others}")
     return array
+
+
+def is_single(values: Any) -> bool:
+    """Whether this is one number, and no array."""
+    try:
+        return np.ndim(values) == 0
+    except ValueError:
+        return False
 
 
 def face_indices(values: ArrayLike) -> NDArray[np.uint32]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,7 +44,8 @@ class ClosestPoints:
         self.u, self.v = u.reshape(shape), v.reshape(shape)
         self.primitive_id = primitive_id.reshape(shape)
         self.geometry_id = geometry_id.reshape(shape)
-        self._tree = tree
+        # What was a pickle has none; its normals are there.
+        self._tree: Any = tree
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -58,6 +59,16 @@ class ClosestPoints:
         none = np.full(flat[0].shape, -1, dtype=np.int32)
         normals: FloatArray = self._tree.normals(*flat, none).reshape((*self.shape, 3))
         return normals.astype(self.distance.dtype, copy=False)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """All but the tree, and so with what only the tree can tell."""
+        return {**self.__dict__, "normal": self.normal, "_tree": None}
+
+    def __copy__(self) -> ClosestPoints:
+        """Another of the same arrays, and the same tree."""
+        twin = object.__new__(type(self))
+        twin.__dict__.update(self.__dict__)
+        return twin
 
     def __len__(self) -> int:
         return len(self.distance)

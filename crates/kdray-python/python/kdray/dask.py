@@ -12,14 +12,18 @@ the tree alone, and Dask does a task again that was lost. A file is known by the
 worker that finds another in its place says so; of a mesh file, materials and textures in other files are not looked at.
 
 All workers must see the tree's file, and those of rays, under the paths that are given. Each task runs on as many
-threads as Dask gives it: one.
+threads as Dask gives it: one. Errors about a ray or a point come from workers; they count within the block, and say
+where it begins.
 """
 
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 from hashlib import blake2b
-from os import PathLike, fspath
+from inspect import signature
+from os import PathLike
 from pathlib import Path
 from typing import Any, Callable, Union
 
@@ -29,10 +33,12 @@ from dask.base import tokenize
 from numpy.typing import DTypeLike, NDArray
 
 from . import _kdray
-from .errors import ArgumentError, FileError, about_file
+from .arrays import floats, is_single
+from .errors import ArgumentError, ArgumentTypeError, FileError, about_file
 from .hits import Hits
 from .saved import path_of
 from .scene import Scene
+from .whole import whole
 
 __all__ = [
     "all_hits",
@@ -55,6 +61,9 @@ Crop = tuple[int, int, int, int]
 PER_TASK = 2_000_000
 """Rays or points a task, unless told otherwise: seconds of work, and 160 MB of rays and hits in f64."""
 
+TAKEN = frozenset({"threads", "progress", "crop"})
+"""Options that each task has from here, or that only one process can have."""
+
 
 def rays_from(path: Union[str, "PathLike[str]"], per_task: int = PER_TASK) -> da.Array:
     """Rays (n, 6) from a file, of which each task reads its own part: ``.npy``, ``.zarr`` or ``.parquet``.
@@ -62,16 +71,15 @@ def rays_from(path: Union[str, "PathLike[str]"], per_task: int = PER_TASK) -> da
     A Parquet file has six columns of numbers, origins before directions. Zarr and Parquet need what Dask needs for
     them.
     """
-    name, ending = fspath(path), Path(path).suffix.lower()
+    name = path_of("path", path)
+    ending, count = Path(name).suffix.lower(), _positive("per_task", per_task)
     if ending == ".npy":
-        return _rays_from_npy(name, per_task)
-    if ending == ".zarr":
-        return _blocks("path", da.from_zarr(name), 6, per_task)
-    if ending == ".parquet":
-        from dask.dataframe import read_parquet
-
-        return _blocks("path", read_parquet(name).to_dask_array(lengths=True), 6, per_task)
-    raise ArgumentError(f"path: {name} ends neither in .npy nor in .zarr or .parquet")
+        return _rays_from_npy(name, count)
+    if ending not in (".zarr", ".parquet"):
+        raise ArgumentError(f"path: {name} ends neither in .npy nor in .zarr or .parquet")
+    with _reading(name):
+        rays = da.from_zarr(name) if ending == ".zarr" else _from_parquet(name)
+    return _blocks("path", rays, 6, count)
 
 
 def closest_hit(tree: TreeFile, rays: Any, *, per_task: int = PER_TASK, **options: Any) -> da.Array:
@@ -101,14 +109,17 @@ def all_hits(tree: TreeFile, rays: Any, *, per_task: int = PER_TASK, **options: 
     blocks = _blocks("rays", rays, 6, per_task)
     if blocks.ndim != 2:
         raise ArgumentError(f"rays: give an array of shape (n, 6), not {blocks.shape}")
-    _check_numbers(options)
+    _check("all_hits", options)
     records = np.dtype([("ray_id", np.int64), *_hit_records(blocks.dtype).descr])
     firsts = np.cumsum([0, *blocks.chunks[0][:-1]])
     first = da.from_array(firsts[:, np.newaxis], chunks=(1, 1))
     path, content_hash = _known(tree)
 
-    def hits(block: NDArray[Any], first: NDArray[np.int64]) -> NDArray[Any]:
-        found = _opened(path, content_hash).all_hits(block, threads=1, **options)
+    def hits(
+        block: NDArray[Any], first: NDArray[np.int64], block_info: Any = None
+    ) -> NDArray[Any]:
+        with _counting(block_info):
+            found = _opened(path, content_hash).all_hits(block, threads=1, **options)
         table = _recorded(found, records)
         table["ray_id"] = found.ray_id + first[0, 0]
         return table
@@ -142,6 +153,7 @@ def render(
     ``options`` are those of ``kdray.Scene.render``. The pixels are those of one machine, bit for bit; pictures of
     cost need a ``heat_max``, or each tile would have its own. Stack the pictures of several cameras for an animation.
     """
+    _check_names("render", options)
 
     def pixels(seen: Scene, crop: Crop) -> NDArray[np.uint8]:
         picture = seen.render(width=width, height=height, crop=crop, threads=1, **options)
@@ -164,9 +176,8 @@ def radiance(
 
     The mean of all samples, as ``Scene.render(...).layers`` has it but for the rounding of sums.
     """
-    for name, number in (("samples", samples), ("samples_per_task", samples_per_task)):
-        if number < 1:
-            raise ArgumentError(f"{name}: give 1 or more, not {number}")
+    samples, at_once = _positive("samples", samples), _positive("samples_per_task", samples_per_task)
+    _check_names("render", options, TAKEN | {"sample_range"})
 
     def light(first: int, end: int) -> da.Array:
         def sums(seen: Scene, crop: Crop) -> NDArray[np.float64]:
@@ -177,8 +188,8 @@ def radiance(
 
         return _tiles(scene, (height, width), tile, np.float64, sums)
 
-    starts = range(0, samples, samples_per_task)
-    parts = [light(first, min(first + samples_per_task, samples)) for first in starts]
+    starts = range(0, samples, at_once)
+    parts = [light(first, min(first + at_once, samples)) for first in starts]
     mean: da.Array = (sum(parts[1:], start=parts[0]) / samples).astype(np.float32)
     return mean
 
@@ -191,8 +202,8 @@ def _tiles(
     pixels: Callable[[Scene, Crop], NDArray[Any]],
 ) -> da.Array:
     """A picture of three channels, lazily, in tiles that ``pixels`` renders."""
-    if tile < 1:
-        raise ArgumentError(f"tile: give 1 or more, not {tile}")
+    height, width = _positive("height", shape[0]), _positive("width", shape[1])
+    side = _positive("tile", tile)
     path, content_hash = _known(scene)
 
     def part(block_info: Any = None) -> NDArray[Any]:
@@ -200,7 +211,7 @@ def _tiles(
         crop = (columns[0], rows[0], columns[1] - columns[0], rows[1] - rows[0])
         return pixels(_opened(path, content_hash), crop)
 
-    chunks = da.core.normalize_chunks((tile, tile, 3), (*shape, 3))
+    chunks = da.core.normalize_chunks((side, side, 3), (height, width, 3))
     meta = np.empty((0, 0, 0), dtype)
     picture: da.Array = da.map_blocks(part, chunks=chunks, dtype=dtype, meta=meta)
     return picture
@@ -210,12 +221,13 @@ def _asked(
     tree: TreeFile, query: str, blocks: da.Array, dtype: DTypeLike, options: dict[str, Any]
 ) -> da.Array:
     """The answers to all blocks, lazily, of the shape of their vectors."""
-    _check_numbers(options)
+    _check(query, options)
     path, content_hash = _known(tree)
 
-    def answers(block: NDArray[Any]) -> NDArray[Any]:
+    def answers(block: NDArray[Any], block_info: Any = None) -> NDArray[Any]:
         ask: Callable[..., Any] = getattr(_opened(path, content_hash), query)
-        found = ask(block, threads=1, **options)
+        with _counting(block_info):
+            found = ask(block, threads=1, **options)
         table: NDArray[Any] = _recorded(found, np.dtype(dtype)) if isinstance(found, Hits) else found
         return table
 
@@ -225,11 +237,39 @@ def _asked(
     return found
 
 
-def _check_numbers(options: dict[str, Any]) -> None:
-    """Arrays would be broadcast to each block, not to all of them."""
+@contextmanager
+def _counting(block_info: Any) -> Iterator[None]:
+    """Errors say where the block begins within which they count."""
+    try:
+        yield
+    except ArgumentError as error:
+        starts = [start for start, _ in block_info[0]["array-location"][:-1]]
+        begin = starts[0] if len(starts) == 1 else tuple(starts)
+        raise ArgumentError(f"{error}; counted from {begin}, where the block begins") from None
+
+
+def _check(query: str, options: dict[str, Any]) -> None:
+    """Refuses options that a query does not have, and arrays: they would be broadcast to each block, not to all."""
+    _check_names(query, options)
     for name, value in options.items():
-        if np.ndim(value) != 0:
+        if not is_single(value):
             raise ArgumentError(f"{name}: give one number for all")
+
+
+def _check_names(query: str, options: dict[str, Any], taken: frozenset[str] = TAKEN) -> None:
+    """Refuses options that a method of scenes does not have, before any worker does."""
+    parameters = signature(getattr(Scene, query)).parameters.values()
+    known = [it.name for it in parameters if it.kind is it.KEYWORD_ONLY and it.name not in taken]
+    for name in options:
+        if name not in known:
+            raise ArgumentTypeError(f"{name}: this cannot be given here; there are {', '.join(known)}")
+
+
+def _positive(name: str, number: int) -> int:
+    count = whole(name, number)
+    if count < 1:
+        raise ArgumentError(f"{name}: give 1 or more, not {count}")
+    return count
 
 
 def _known(file: TreeFile) -> tuple[str, str]:
@@ -285,34 +325,54 @@ def _recorded(hits: Hits, records: np.dtype[Any]) -> NDArray[Any]:
 
 def _blocks(name: str, vectors: Any, width: int, per_task: int) -> da.Array:
     """Vectors (..., width) in blocks of f32 or f64, each of whole vectors and not above ``per_task`` of them."""
-    if per_task < 1:
-        raise ArgumentError(f"per_task: give 1 or more, not {per_task}")
-    array = vectors if isinstance(vectors, da.Array) else da.from_array(np.asarray(vectors))
+    count = _positive("per_task", per_task)
+    array = vectors if isinstance(vectors, da.Array) else da.from_array(floats(name, vectors))
+    if array.dtype.kind not in "fiub":
+        raise ArgumentTypeError(f"{name}: give real numbers, not an array of {array.dtype}")
     if array.ndim < 2 or array.shape[-1] != width:
         raise ArgumentError(f"{name}: give an array of shape (..., {width}), not {array.shape}")
     if np.isnan(array.shape).any():
         raise ArgumentError(f"{name}: its length is not known; call compute_chunk_sizes() first")
     if array.dtype not in (np.float32, np.float64):
         array = array.astype(np.float64)
-    most = per_task * width * array.dtype.itemsize
-    too_large = np.prod([max(sizes) for sizes in array.chunks[:-1]]) > per_task
+    most = count * width * array.dtype.itemsize
+    too_large = np.prod([max(sizes) for sizes in array.chunks[:-1]]) > count
     if too_large or len(array.chunks[-1]) > 1:
         whole = {axis: "auto" for axis in range(array.ndim - 1)} | {array.ndim - 1: -1}
         array = array.rechunk(whole, block_size_limit=most)
     return array
 
 
+@contextmanager
+def _reading(path: str) -> Iterator[None]:
+    """Errors of other packages about a file, as those of kdray."""
+    try:
+        yield
+    except OSError as error:
+        raise about_file(path, error) from error
+    except (ValueError, EOFError) as error:
+        raise FileError(f"{path}: this is no array that can be read: {error}") from error
+
+
+def _from_parquet(path: str) -> da.Array:
+    from dask.dataframe import read_parquet
+
+    rays: da.Array = read_parquet(path).to_dask_array(lengths=True)
+    return rays
+
+
 def _rays_from_npy(path: str, per_task: int) -> da.Array:
-    header = np.load(path, mmap_mode="r")
+    header = _mapped(path)
     if header.ndim != 2 or header.shape[1] != 6:
         raise ArgumentError(f"path: {path} holds an array of shape {header.shape}; it must be (n, 6)")
+    if header.dtype.kind not in "fiub":
+        raise ArgumentTypeError(f"path: {path} holds an array of {header.dtype}; it must be of real numbers")
     starts = range(0, len(header), per_task) or range(1)
     sizes = tuple(min(per_task, len(header) - start) for start in starts)
 
     def part(block_info: Any = None) -> NDArray[Any]:
         (start, stop), _ = block_info[None]["array-location"]
-        rays: NDArray[Any] = np.array(np.load(path, mmap_mode="r")[start:stop])
-        return rays
+        return np.array(_mapped(path)[start:stop])
 
     meta = np.empty((0, 0), header.dtype)
     written = os.stat(path)
@@ -322,3 +382,12 @@ def _rays_from_npy(path: str, per_task: int) -> da.Array:
         part, chunks=(sizes, (6,)), dtype=header.dtype, meta=meta, token=tokenize(token)
     )
     return rays
+
+
+def _mapped(path: str) -> NDArray[Any]:
+    """The array of a file of numpy's, mapped into memory."""
+    with _reading(path):
+        array: NDArray[Any] = np.load(path, mmap_mode="r")
+    if not isinstance(array, np.ndarray):
+        raise FileError(f"{path}: this holds several arrays; save one with numpy.save")
+    return array

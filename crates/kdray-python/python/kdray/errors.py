@@ -1,6 +1,8 @@
 """What can go wrong. Every message names what is to blame, and says what to do."""
 
 import errno
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 
 __all__ = [
     "ArgumentError",
@@ -56,4 +58,17 @@ class InternalError(KdrayError, RuntimeError):
 def about_file(path: str, error: OSError) -> FileError:
     """What the system says about a file, as an error of kdray."""
     kind = MissingFileError if isinstance(error, FileNotFoundError) else FileError
-    return kind(f"{path}: {error.strerror}")
+    return kind(f"{path}: {error.strerror or error}")
+
+
+@contextmanager
+def renamed(names: Mapping[str, str]) -> Iterator[None]:
+    """Tells what is wrong with arguments by the names that the caller gave them under, not by those of calls within."""
+    try:
+        yield
+    except (ArgumentError, ArgumentTypeError) as error:
+        blamed, _, reason = str(error).partition(": ")
+        given = ", ".join(names.get(name, name) for name in blamed.split(", "))
+        if given == blamed:
+            raise
+        raise type(error)(f"{given}: {reason}") from None

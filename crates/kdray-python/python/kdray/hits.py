@@ -35,11 +35,13 @@ class Hits:
     front: NDArray[np.bool_]
     """Whether the front was hit: the side from which the triangle's vertices run counter-clockwise."""
 
-    def __init__(self, tree: Tree, arrays: _HitArrays, shape: tuple[int, ...]) -> None:
+    def __init__(self, tree: Optional[Tree], arrays: _HitArrays, shape: tuple[int, ...]) -> None:
         t, u, v, primitive_id, front, geometry_id, instance_id = arrays
         self.t, self.u, self.v = t.reshape(shape), u.reshape(shape), v.reshape(shape)
         self.primitive_id, self.front = primitive_id.reshape(shape), front.reshape(shape)
-        self._tree, self._geometry_id, self._instance_id = tree, geometry_id, instance_id
+        self._geometry_id, self._instance_id = geometry_id, instance_id
+        # What was a pickle has none; its normals and positions are there.
+        self._tree: Any = tree
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -83,7 +85,22 @@ class Hits:
 
         arrays = (self.t, self.u, self.v, self.primitive_id, self.front)
         chosen: Any = [flat(array) for array in (*arrays, self._geometry_id, self._instance_id)]
-        return Hits(self._tree, chosen, chosen[0].shape)
+        hits = Hits(self._tree, chosen, chosen[0].shape)
+        if self._tree is None:
+            places = np.arange(self.t.size).reshape(self.shape)[index]
+            hits.normal = self.normal.reshape(-1, 3)[places]
+            hits.position = self.position.reshape(-1, 3)[places]
+        return hits
+
+    def __getstate__(self) -> dict[str, Any]:
+        """All but the tree, and so with what only the tree can tell."""
+        return {**self.__dict__, "normal": self.normal, "position": self.position, "_tree": None}
+
+    def __copy__(self) -> Hits:
+        """Another of the same arrays, and the same tree."""
+        twin = object.__new__(type(self))
+        twin.__dict__.update(self.__dict__)
+        return twin
 
     def __len__(self) -> int:
         return len(self.t)

@@ -9,8 +9,11 @@ from numpy.typing import ArrayLike
 from .errors import ArgumentTypeError
 
 
-def triangles_of(mesh: Any) -> tuple[ArrayLike, ArrayLike]:
-    """Vertices and faces of a trimesh.Trimesh, or of an Open3D mesh of either kind."""
+def triangles_of(name: str, mesh: Any, others: str) -> tuple[ArrayLike, ArrayLike]:
+    """Vertices and faces of a trimesh.Trimesh, or of an Open3D mesh of either kind.
+
+    ``name`` is what the caller calls it, ``others`` what else the caller may give.
+    """
     if hasattr(mesh, "vertices") and hasattr(mesh, "faces"):
         return mesh.vertices, mesh.faces
     vertex, triangle = getattr(mesh, "vertex", None), getattr(mesh, "triangle", None)
@@ -18,5 +21,5 @@ def triangles_of(mesh: Any) -> tuple[ArrayLike, ArrayLike]:
         return vertex.positions.numpy(), triangle.indices.numpy()
     if hasattr(mesh, "vertices") and hasattr(mesh, "triangles"):
         return mesh.vertices, mesh.triangles
-    text = "give a trimesh.Trimesh, an open3d TriangleMesh, or the path of a file"
-    raise ArgumentTypeError(f"mesh: {type(mesh).__name__} has no triangles that kdray knows of; {text}")
+    text = f"give a trimesh.Trimesh, an open3d TriangleMesh, or {others}"
+    raise ArgumentTypeError(f"{name}: {type(mesh).__name__} has no triangles that kdray knows of; {text}")

@@ -17,8 +17,8 @@ from typing import Any, Optional
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .arrays import FloatArray, vectors
-from .errors import ArgumentError
+from .arrays import FloatArray, face_indices, is_single, vectors
+from .errors import ArgumentError, renamed
 from .hits import Hits
 from .meshes import triangles_of
 from .pinhole import rays_of_field_of_view, rays_of_matrices
@@ -29,6 +29,9 @@ __all__ = ["RaycastingScene"]
 
 Answers = dict[str, NDArray[Any]]
 """Arrays by their names."""
+
+_named = renamed({"t_min": "tnear", "t_max": "tfar", "threads": "nthreads"})
+"""Errors name the arguments of queries as Open3D does."""
 
 
 class RaycastingScene:
@@ -61,16 +64,22 @@ class RaycastingScene:
         self, vertex_positions: Any = None, triangle_indices: Any = None, *, mesh: Any = None
     ) -> int:
         """Adds vertices (n, 3) and triangles (m, 3), or an Open3D or trimesh mesh alone. Returns its id."""
+        names = {"vertices": "vertex_positions", "faces": "triangle_indices"}
         if triangle_indices is None:
-            vertex_positions, triangle_indices = triangles_of(vertex_positions if mesh is None else mesh)
-        positions = np.array(vectors("vertex_positions", _numpy(vertex_positions)))
-        indices = np.array(_numpy(triangle_indices))
-        # It says what is wrong with them, now.
-        Scene(positions, indices)
+            name, given = ("vertex_positions", vertex_positions) if mesh is None else ("mesh", mesh)
+            others = "vertex_positions and triangle_indices; files are read by kdray.Scene.of"
+            vertex_positions, triangle_indices = triangles_of(name, given, others)
+            names = {}
+        with renamed(names):
+            positions = np.array(vectors("vertices", _numpy(vertex_positions)))
+            indices = np.array(face_indices(_numpy(triangle_indices)))
+            # It says what is wrong with them, now.
+            Scene(positions, indices)
         self._meshes.append((positions, indices))
         self._scene = None
         return len(self._meshes) - 1
 
+    @_named
     def cast_rays(self, rays: Any, nthreads: int = 0) -> Answers:
         """The first hits of rays (..., 6).
 
@@ -81,6 +90,7 @@ class RaycastingScene:
         normals = np.where(hits.hit[..., np.newaxis], hits.normal, hits.t.dtype.type(0))
         return {**_of_hits(hits), "primitive_normals": normals}
 
+    @_named
     def test_occlusions(
         self, rays: Any, tnear: float = 0.0, tfar: float = np.inf, nthreads: int = 0
     ) -> NDArray[np.bool_]:
@@ -89,10 +99,12 @@ class RaycastingScene:
         bounds: dict[str, Any] = {"t_min": tnear, "t_max": tfar}
         return self._built().any_hit(_rays(rays), **bounds, invalid="miss", threads=threads)
 
+    @_named
     def count_intersections(self, rays: Any, nthreads: int = 0) -> NDArray[np.int32]:
         """How many surfaces rays (..., 6) cross."""
         return self._built().count(_rays(rays), invalid="miss", threads=_threads(nthreads))
 
+    @_named
     def list_intersections(self, rays: Any, nthreads: int = 0) -> Answers:
         """All hits of rays (..., 6), in flat arrays, by ray and by rising ``t_hit``.
 
@@ -102,6 +114,7 @@ class RaycastingScene:
         places = {"ray_splits": _whole(hits.offsets), "ray_ids": _whole(hits.ray_id)}
         return {**places, **_of_hits(hits)}
 
+    @_named
     def compute_closest_points(self, query_points: Any, nthreads: int = 0) -> Answers:
         """The nearest points of the triangles to points (..., 3): ``points`` (..., 3), and where they lie."""
         points = vectors("query_points", _numpy(query_points))
@@ -114,11 +127,13 @@ class RaycastingScene:
             "primitive_normals": found.normal,
         }
 
+    @_named
     def compute_distance(self, query_points: Any, nthreads: int = 0) -> FloatArray:
         """How far points (..., 3) are from the nearest triangle; infinite if there is none."""
         points = vectors("query_points", _numpy(query_points))
         return self._built().closest_point(points, invalid="miss", threads=_threads(nthreads)).distance
 
+    @_named
     def compute_signed_distance(
         self, query_points: Any, nthreads: int = 0, nsamples: int = 1
     ) -> FloatArray:
@@ -127,6 +142,7 @@ class RaycastingScene:
         points = vectors("query_points", _numpy(query_points))
         return self._built().signed_distance(points, invalid="miss", threads=_threads(nthreads))
 
+    @_named
     def compute_occupancy(
         self, query_points: Any, nthreads: int = 0, nsamples: int = 1
     ) -> FloatArray:
@@ -146,7 +162,7 @@ class RaycastingScene:
         to which the camera looks, ``eye``, ``up``, ``width_px`` and ``height_px``: as Open3D has it, that picture is
         turned by 180 degrees, and ``rays[::-1, ::-1]`` stands upright.
         """
-        if "fov_deg" in kwargs or args and np.ndim(_numpy(args[0])) == 0:
+        if "fov_deg" in kwargs or args and is_single(_numpy(args[0])):
             return rays_of_field_of_view(*args, **kwargs)
         return rays_of_matrices(*args, **kwargs)
 

@@ -17,7 +17,7 @@ class Picture(np.ndarray[Any, np.dtype[np.uint8]]):
     """A picture as an array (height, width, 3) of uint8, as a PNG shows it: shading in sRGB, costs by colours.
 
     The numbers behind it are in ``layers``. Notebooks show it. Parts of it, and what is computed from it, have none
-    of that.
+    of that. It is read-only, for what is saved is what was rendered; a copy can be changed.
     """
 
     _made: Optional[_kdray.Picture]
@@ -27,6 +27,7 @@ class Picture(np.ndarray[Any, np.dtype[np.uint8]]):
         """What was rendered, as an array."""
         picture = np.ascontiguousarray(made.rgba[..., :3]).view(cls)
         picture._made = made
+        picture.flags.writeable = False
         return picture
 
     def __array_finalize__(self, _: Any) -> None:

@@ -45,15 +45,16 @@ def rays_of_field_of_view(
     As Open3D has it, ``up`` is where rows go: the lowest row is the first, and the picture is turned by 180
     degrees. ``rays[::-1, ::-1]`` stands upright.
     """
-    if not 0 < fov_deg < 180:
-        raise ArgumentError(f"fov_deg: give an angle above 0 and below 180 degrees, not {fov_deg}")
+    angle = float(_matrix("fov_deg", fov_deg, ()))
+    if not 0 < angle < 180:
+        raise ArgumentError(f"fov_deg: give an angle above 0 and below 180 degrees, not {angle:g}")
     width, height = _pixels("width_px", width_px), _pixels("height_px", height_px)
     ahead = _unit("center", _matrix("center", center, (3,)) - _matrix("eye", eye, (3,)))
     across = _unit("up", np.cross(_matrix("up", up, (3,)), ahead))
     rotation = np.stack([across, np.cross(ahead, across), ahead])
     extrinsic = np.eye(4)
     extrinsic[:3, :3], extrinsic[:3, 3] = rotation, -rotation @ _matrix("eye", eye, (3,))
-    focal = 0.5 * width / np.tan(np.radians(0.5 * fov_deg))
+    focal = 0.5 * width / np.tan(np.radians(0.5 * angle))
     intrinsic = np.array([[focal, 0, 0.5 * width], [0, focal, 0.5 * height], [0, 0, 1]])
     return rays_of_matrices(intrinsic, extrinsic, width, height)
 

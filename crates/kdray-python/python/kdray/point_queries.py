@@ -11,10 +11,12 @@ from numpy.typing import ArrayLike, NDArray
 from . import _kdray
 from .arrays import FloatArray, broadcast, common_shape, vectors
 from .closest_points import ClosestPoints
+from .errors import renamed
 from .hits import Hits
 from .progress import Progress, telling
 from .rays import is_lenient
 from .whole import whole_or_none
+from .word import word
 
 if TYPE_CHECKING:
     from ._kdray import Tree
@@ -132,6 +134,7 @@ class PointQueries:
         at: Union[ArrayLike, Hits, ClosestPoints],
         *,
         side: Literal["front", "back"] = "front",
+        invalid: Literal["raise", "miss"] = "raise",
         threads: Optional[int] = None,
         progress: Progress = None,
     ) -> FloatArray:
@@ -141,8 +144,10 @@ class PointQueries:
         of the mesh. ``side`` is the one that is seen from outside; the way leads off the other, at a right angle.
         NaN where no surface is on the way, or nothing was hit.
         """
+        is_lenient(invalid)
         if not isinstance(at, (Hits, ClosestPoints)):
-            at = self.closest_point(at, threads=threads)
+            with renamed({"points": "at"}):
+                at = self.closest_point(at, invalid=invalid, threads=threads)
         number = at.t if isinstance(at, Hits) else at.distance
         ids = [np.ascontiguousarray(each).reshape(-1) for each in (at.primitive_id, at.geometry_id)]
         weights = [np.ascontiguousarray(w, dtype=np.float64).reshape(-1) for w in (at.u, at.v)]
@@ -153,7 +158,7 @@ class PointQueries:
                 ids[1],
                 weights[0],
                 weights[1],
-                side=side,
+                side=word("side", side),
                 is_double=number.dtype != np.float32,
                 threads=whole_or_none("threads", threads),
                 progress=told,

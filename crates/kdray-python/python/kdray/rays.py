@@ -38,7 +38,7 @@ class Rays:
     ) -> Rays:
         """Rays of one array (..., 6), or of origins and directions (..., 3); with bounds of t (...)."""
         if directions is None:
-            lines = {"rays": vectors("rays", origins, 6)}
+            lines = {"rays": vectors("rays", origins, 6, ", or give directions as well")}
         else:
             lines = {"origins": vectors("origins", origins), "directions": vectors("directions", directions)}
         bounds = {"t_min": floats("t_min", t_min), "t_max": floats("t_max", t_max)}

@@ -102,7 +102,7 @@ class Rendering:
             "eye": _triple("eye", eye),
             "look_at": _triple("look_at", look_at),
             "up": _triple("up", up),
-            "fov": _number("fov", fov),
+            "fov": _number_or_none("fov", fov),
             "camera": None if camera is None else str(camera),
             "light": [] if light is None else vectors("light", light).reshape(-1, 3).tolist(),
         }
@@ -117,9 +117,9 @@ class Rendering:
             "background": _triple("background", background),
             "ambient": _triple("ambient", ambient),
             "ambient_rays": _count("ambient_rays", ambient_rays),
-            "occlusion_distance": _number("occlusion_distance", occlusion_distance),
+            "occlusion_distance": _number_or_none("occlusion_distance", occlusion_distance),
             "exposure": _number("exposure", exposure),
-            "heat_max": _number("heat_max", heat_max),
+            "heat_max": _number_or_none("heat_max", heat_max),
             "crop": None if crop is None else _counts("crop", crop, 4),
             "sample_range": None if sample_range is None else _counts("sample_range", sample_range, 2),
         }
@@ -145,18 +145,23 @@ def _count(name: str, number: int, bits: int = 32) -> int:
 
 
 def _counts(name: str, numbers: Iterable[int], many: int) -> list[int]:
+    if not isinstance(numbers, Iterable):
+        raise ArgumentTypeError(f"{name}: give {many} whole numbers, not {numbers!r}")
     counts = [_count(name, number) for number in numbers]
     if len(counts) != many:
         raise ArgumentError(f"{name}: give {many} whole numbers, not {len(counts)}")
     return counts
 
 
-def _number(name: str, number: Optional[float]) -> Optional[float]:
-    if number is None:
-        return None
-    if isinstance(number, bool) or not isinstance(number, (int, float, np.number)):
+def _number(name: str, number: float) -> float:
+    is_real = isinstance(number, (int, float, np.integer, np.floating))
+    if isinstance(number, bool) or not is_real:
         raise ArgumentTypeError(f"{name}: give a number, not {number!r}")
     return float(number)
+
+
+def _number_or_none(name: str, number: Optional[float]) -> Optional[float]:
+    return None if number is None else _number(name, number)
 
 
 def _triple(name: str, values: Optional[ArrayLike]) -> Optional[list[Any]]:

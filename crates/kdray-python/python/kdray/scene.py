@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from html import escape
@@ -15,7 +14,7 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from . import _kdray
 from ._kdray import Look, Mesh, Tree
-from .arrays import FloatArray, face_indices, vectors
+from .arrays import FloatArray, face_indices, floats, vectors
 from .errors import ArgumentError, ArgumentTypeError, SceneError
 from .figures import as_html
 from .meshes import triangles_of
@@ -24,7 +23,9 @@ from .progress import Progress, telling
 from .ray_queries import RayQueries
 from .rendering import Rendering
 from .saved import Saved, Saving, path_of
+from .warning import warn
 from .whole import ALL, mask_bits, whole, whole_or_none
+from .word import word_or_none
 
 if TYPE_CHECKING:
     from ._kdray import _Copy
@@ -74,7 +75,8 @@ class Scene(RayQueries, PointQueries, Rendering, Saving):
         if vertices is not None and faces is not None:
             self.add_triangles(vertices, faces)
         elif vertices is not None or faces is not None:
-            raise ArgumentError("vertices, faces: give both, or neither")
+            text = "give both, or neither; Scene.of takes the path of a file, or a mesh of another package"
+            raise ArgumentError(f"vertices, faces: {text}")
 
     @classmethod
     def of(cls, mesh: Any, *, dtype: Optional[DTypeLike] = None) -> Scene:
@@ -94,7 +96,8 @@ class Scene(RayQueries, PointQueries, Rendering, Saving):
         Both are copied. Vertices that no face uses may be anything; all others are finite. Faces without area
         are kept, and no ray hits them.
         """
-        points = vectors("vertices", vertices) if np.size(vertices) else np.zeros((0, 3), np.float32)
+        points = floats("vertices", vertices)
+        points = vectors("vertices", points) if points.size else np.zeros((0, 3), np.float32)
         if points.ndim != 2:
             raise ArgumentError(f"vertices: give an array of shape (n, 3), not {points.shape}")
         if self._dtype is not None:
@@ -111,13 +114,13 @@ class Scene(RayQueries, PointQueries, Rendering, Saving):
         range or vertices that are not finite, with a warning, instead of refusing the file.
         """
         if not isinstance(mesh, (str, os.PathLike)):
-            return self.add_triangles(*triangles_of(mesh))
+            return self.add_triangles(*triangles_of("mesh", mesh, "the path of a file"))
         path = path_of("mesh", mesh)
         if _kdray.is_tree_file(path):
             raise ArgumentError("mesh: this is a tree file, which is a scene of its own; take Scene.load")
         read, look, told = _kdray.read_mesh(path, drop_bad=bool(drop_bad))
         for text in told:
-            warnings.warn(f"{path}: {text}", stacklevel=2)
+            warn(text)
         if self._dtype is not None and (self._dtype == np.float64) != read.is_double:
             read = Mesh(read.vertices.astype(self._dtype), read.faces)
         return self._add(read, look)
@@ -221,6 +224,14 @@ class Scene(RayQueries, PointQueries, Rendering, Saving):
         """
         return self._built().bounds
 
+    def __copy__(self, *_: Any) -> Scene:
+        """A scene that is built cannot be changed, and so is its own copy."""
+        if self._tree is None:
+            raise SceneError("the scene is not built, and what can be changed is not copied; call build() first")
+        return self
+
+    __deepcopy__ = __copy__
+
     def _repr_html_(self) -> str:
         """What notebooks show: the figures of a scene that is built."""
         if self._tree is None:
@@ -281,8 +292,8 @@ class Scene(RayQueries, PointQueries, Rendering, Saving):
                 self._meshes,
                 self._copies,
                 is_double=is_double,
-                preset=preset,
-                split=split,
+                preset=word_or_none("preset", preset),
+                split=word_or_none("split", split),
                 leaf_size=numbers.get("leaf_size"),
                 max_depth=numbers.get("max_depth"),
                 memory_limit=numbers.get("memory_limit"),
