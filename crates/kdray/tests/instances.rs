@@ -4,10 +4,13 @@
 
 use kdray::query::{InstanceError, InstancedSceneError};
 use kdray::{
-    BuildOptions, Hit, Instance, InstanceHit, InstancedScene, Precision, Ray, Scene, TriangleMesh,
+    BuildError, BuildOptions, Hit, Instance, InstanceHit, InstancedScene, Precision, Ray, Scene,
+    TriangleMesh,
 };
 use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
+use std::ops::ControlFlow;
+use std::sync::Mutex;
 
 /// The cube from −1 to 1, closed, its fronts outside.
 fn cube() -> TriangleMesh {
@@ -320,6 +323,60 @@ fn ten_thousand_copies_share_one_tree() {
 }
 
 #[test]
+fn copies_far_from_zero_are_told_apart() {
+    // At 5,400,000 numbers of f32 are half a metre apart.
+    let place = |i: u32| [FAR[0] + 0.5 * f64::from(i % 30), FAR[1] + 0.5 * f64::from(i / 30), 0.0];
+    let row = |axis: usize, offset: f64| {
+        let mut row = [0.0, 0.0, 0.0, offset];
+        row[axis] = 0.05;
+        row
+    };
+    let copy = |i: u32| {
+        let [x, y, z] = place(i);
+        Instance::of(0).placed([row(0, x), row(1, y), row(2, z)])
+    };
+    let scene = InstancedScene::build(vec![scene(cube())], (0..900).map(copy).collect()).unwrap();
+    let references = scene.tree().stats(900, &kdray::CostModel::default()).references;
+    assert!(references < 3 * 900, "{references}");
+    for i in 0..900 {
+        let [x, y, _] = place(i);
+        let found = scene.closest_hit(&Ray::new([x, y, 9.0], [0.0, 0.0, -1.0])).unwrap();
+        assert_eq!(found.instance_id, i);
+        assert!(!scene.any_hit(&Ray::new([x + 0.25, y, 9.0], [0.0, 0.0, -1.0])));
+    }
+    // Beyond f32, too.
+    let far = Instance::of(0).moved([1e39, 0.0, 0.0]);
+    let beyond = InstancedScene::build(scene.geometries().to_vec(), vec![far]).unwrap();
+    assert_eq!(beyond.count(&Ray::new([1e39, 0.25, 9.0], [0.0, 0.0, -1.0])), 2);
+}
+
+#[test]
+fn a_build_can_be_watched_stopped_and_limited() {
+    let copies: Vec<_> =
+        (0..20_000_u32).map(|i| Instance::of(0).moved([f64::from(3 * i), 0.0, 0.0])).collect();
+    let geometry = vec![scene(cube())];
+    let told = Mutex::new(Vec::new());
+    let build = |limit: Option<u64>, last: f64| {
+        InstancedScene::build_with_progress(geometry.clone(), copies.clone(), limit, &|done| {
+            told.lock().unwrap().push(done.fraction);
+            if done.fraction > last { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        })
+        .map(|_| ())
+    };
+    let needed = InstancedScene::<f32>::peak_bytes(20_000);
+    assert_eq!(build(Some(needed), 1.0), Ok(()));
+    let told_to_the_end = std::mem::take(&mut *told.lock().unwrap());
+    assert!(told_to_the_end.is_sorted() && told_to_the_end.last() == Some(&1.0));
+    assert!(told_to_the_end.iter().filter(|&&done| done < 0.25).count() > 2);
+    let limit = needed - 1;
+    assert_eq!(build(Some(limit), 1.0), Err(BuildError::Memory { needed, limit }.into()));
+    assert!(told.lock().unwrap().is_empty());
+    for last in [0.1, 0.5] {
+        assert_eq!(build(None, last), Err(BuildError::Cancelled.into()));
+    }
+}
+
+#[test]
 fn what_cannot_be_placed_is_refused() {
     let refused = |instance: Instance| {
         let error = InstancedScene::build(vec![scene(cube())], vec![instance]).unwrap_err();
@@ -333,8 +390,8 @@ fn what_cannot_be_placed_is_refused() {
     assert_eq!(refused(Instance::of(0).placed(nearly)), InstanceError::Singular(0));
     let nowhere = Instance::of(0).moved([f64::NAN, 0.0, 0.0]);
     assert_eq!(refused(nowhere), InstanceError::Singular(0));
-    let far = Instance::of(0).moved([1e39, 0.0, 0.0]);
-    assert_eq!(refused(far), InstanceError::OutOfRange(0));
+    let far = [[1e308, 0.0, 0.0, 1.7e308], [0.0, 1e308, 0.0, 0.0], [0.0, 0.0, 1e308, 0.0]];
+    assert_eq!(refused(Instance::of(0).placed(far)), InstanceError::OutOfRange(0));
     let missing = InstanceError::NoSuchGeometry { instance: 0, geometry_id: 1, geometries: 1 };
     assert_eq!(refused(Instance::of(1)), missing);
 }

@@ -1,6 +1,6 @@
 //! Placed copies of scenes.
 
-use crate::geometry::{Aabb, Coordinate, TreeSpace, inverse_power_of_two};
+use crate::geometry::{Aabb, TreeSpace, inverse_power_of_two};
 use crate::primitives::Hit;
 use glam::{DAffine3, DMat3, DVec3};
 use std::cmp::Ordering;
@@ -69,9 +69,9 @@ pub enum InstanceError {
     /// not the identity to 2^-26.
     #[error("the matrix of instance {0} cannot be inverted; give one that flattens nothing")]
     Singular(usize),
-    /// A copy lies beyond the largest number: for geometries in f32 the largest f32.
+    /// A copy lies beyond the largest f64, or its matrix stretches so unevenly that it may lie anywhere.
     #[error(
-        "instance {0} lies beyond the range of its geometry's numbers; place it nearer to the origin"
+        "instance {0} lies beyond the range of f64, or is stretched by 1e50 times as much one way as another; place it nearer to the origin, or stretch it more evenly"
     )]
     OutOfRange(usize),
     /// There are 2^30 instances or more.
@@ -104,8 +104,8 @@ impl InstanceHit {
     }
 }
 
-/// By how much of its largest coordinate the box of an instance is widened, for what carrying rounds of rays
-/// that come from far away, see [`InstancedScene`]. In f64, of the scene's size.
+/// By how much of the scene's size the box of an instance is widened, for what carrying rounds of rays that come
+/// from far away, see [`InstancedScene`].
 ///
 /// [`InstancedScene`]: super::InstancedScene
 const WIDENED: f64 = 1.0 / (1 << 20) as f64;
@@ -140,7 +140,7 @@ impl Place {
     ) -> Result<Self, InstanceError> {
         let to_world = affine(&instance.to_world);
         let (scaled, unit) = scaled(&to_world.matrix3);
-        let scaled_inverse = scaled.inverse();
+        let scaled_inverse = scaled.try_inverse().ok_or(InstanceError::Singular(index))?;
         let inverse = scaled_inverse * unit;
         let to_object =
             DAffine3 { matrix3: inverse, translation: -(inverse * to_world.translation) };
@@ -169,11 +169,9 @@ impl Place {
 
     /// A box in the tree over all instances that rays pass through which hit this one; `None` if f32
     /// cannot say it.
-    pub(super) fn bounds<T: Coordinate>(&self, space: &TreeSpace) -> Option<Aabb<3>> {
+    pub(super) fn bounds(&self, space: &TreeSpace) -> Option<Aabb<3>> {
         let [low, high] = [self.low, self.high].map(|p| DVec3::from(space.point(p.into())));
-        let farthest = low.abs().max(high.abs()).max_element();
-        let size = if T::FITS_TREE { farthest } else { TreeSpace::FARTHEST.into() };
-        let wider = WIDENED * size + self.error * space.scale();
+        let wider = WIDENED * f64::from(TreeSpace::FARTHEST) + self.error * space.scale();
         let min = (low - wider).to_array().map(|x| (x as f32).next_down());
         let max = (high + wider).to_array().map(|x| (x as f32).next_up());
         let is_finite = min.iter().chain(&max).all(|x| x.is_finite());

@@ -3,12 +3,13 @@
 use super::asked::Asked;
 use super::instance::{Instance, InstanceError, InstanceHit, Place};
 use super::{InstanceHits, Precision, Scene};
-use crate::build::{BuildError, BuildOptions, Strategy};
+use crate::build::{BuildError, BuildOptions, BuildProgress, Strategy};
 use crate::geometry::{Aabb, Ray, TreeSpace};
 use crate::primitives::{Hit, HitRule, Primitives};
 use crate::traverse::LeafWalk;
 use crate::tree::KdTree;
 use glam::{DAffine3, DVec3};
+use std::ops::ControlFlow;
 use std::sync::Arc;
 use thiserror::Error;
 
@@ -18,18 +19,17 @@ use thiserror::Error;
 /// A ray is carried into the space of each instance it may meet, by the inverse of the matrix in f64, and
 /// is answered there as by [`Scene`]: exactly, for the carried ray. An instance that is not moved is
 /// met exactly; carrying rounds the ray by some 2^-52 of the distance between its origin and the instance, times
-/// how unevenly the matrix stretches. So rays may come from up to 2^30 times the largest coordinate away, divided
+/// how unevenly the matrix stretches. So rays may come from up to 2^30 times the scene's size away, divided
 /// by that; from farther, whether a ray is told to meet the rim of an instance may depend on the tree.
 ///
-/// An instance takes some 230 bytes.
+/// An instance takes some 230 bytes, and some 700 while it is built ([`peak_bytes`](Self::peak_bytes)).
 ///
 /// It answers about rays: closest, any and all hits, counts, and many rays at once. For a condition take the first of
 /// [`all_touched`](Self::all_touched) that it holds for. About points, by hints, and from tree files only a geometry's
 /// [`Scene`] answers.
 ///
-/// Geometries are all in f32, or all in f64. In f64 instances may be anywhere, and the tree over them is in
-/// coordinates of its own, as that over an f64 mesh is ([`tree_space`](Self::tree_space)); what was said of the
-/// largest coordinate is so of the scene's size.
+/// Geometries are all in f32, or all in f64. Instances of either may be anywhere in f64: the tree over them is in
+/// coordinates of its own, as that over an f64 mesh is ([`tree_space`](Self::tree_space)).
 ///
 /// The direction is carried as well. One that is beyond the range of f64 then, as one of 1e308 is in a copy at a tenth of
 /// the size, or that vanishes, misses that instance. One with components below 2^-1022 there has lost digits.
@@ -66,6 +66,12 @@ struct Parts<T: 'static> {
     tree: KdTree,
     space: TreeSpace,
 }
+
+/// The part of a build in which instances are placed; in the rest the tree over them is built.
+const PLACING: f64 = 0.25;
+
+/// How many instances are placed between reports.
+const INSTANCES_PER_REPORT: usize = 1 << 12;
 
 /// Why a scene of instances cannot be built.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -105,26 +111,45 @@ impl<T: Precision> InstancedScene<T> {
         geometries: Vec<Scene<T>>,
         instances: Vec<Instance>,
     ) -> Result<Self, InstancedSceneError> {
+        Self::build_with_progress(geometries, instances, None, &|_| ControlFlow::Continue(()))
+    }
+
+    /// Places `geometries`, if that takes at most `memory_limit` bytes by [`peak_bytes`](Self::peak_bytes); tells
+    /// `progress` how far it is, and stops if that answers [`ControlFlow::Break`].
+    ///
+    /// # Errors
+    /// Those of [`build`](Self::build), and [`BuildError::Memory`] and [`BuildError::Cancelled`].
+    pub fn build_with_progress(
+        geometries: Vec<Scene<T>>,
+        instances: Vec<Instance>,
+        memory_limit: Option<u64>,
+        progress: &(dyn Fn(BuildProgress) -> ControlFlow<()> + Sync),
+    ) -> Result<Self, InstancedSceneError> {
         if instances.len() >= Self::MOST_INSTANCES {
             return Err(InstanceError::TooMany(instances.len()).into());
         }
-        let place = |(index, instance): (usize, &Instance)| {
-            let geometry = geometry(&geometries, index, instance)?;
-            let bounds = Some(geometry.tree().bounds()).filter(|bounds| !bounds.is_empty());
-            let space = geometry.mesh().tree_space();
-            Place::of(index, instance, bounds.map(|bounds| space.corners_in_mesh(bounds)))
-        };
-        let mut places = instances.iter().enumerate().map(place).collect::<Result<Vec<_>, _>>()?;
+        let options = BuildOptions { memory_limit, ..options() };
+        options.check_memory(Self::peak_bytes(instances.len()))?;
+        let mut places = placed(&geometries, &instances, progress)?;
         hide_empty(&mut places);
-        let space = space_around::<T>(&places);
+        let space = space_around(&places);
         let bounds = |(index, place): (usize, &Place)| {
-            place.bounds::<T>(&space).ok_or(InstanceError::OutOfRange(index))
+            place.bounds(&space).ok_or(InstanceError::OutOfRange(index))
         };
         let boxes = places.iter().enumerate().map(bounds).collect::<Result<Vec<_>, _>>()?;
         let to_object = places.into_iter().map(|place| place.to_object).collect();
-        let tree = tree_over(boxes)?;
+        let tree = tree_over(boxes, &options, &|done| {
+            progress(BuildProgress { fraction: PLACING + (1.0 - PLACING) * done.fraction })
+        })?;
         let parts = Arc::new(Parts { geometries, instances, to_object, tree, space });
         Ok(Self { parts, mask: u32::MAX })
+    }
+
+    /// About how many bytes a build over so many instances takes at its peak, besides their geometries: what is held
+    /// of each while it is placed, and what [`BuildOptions::peak_bytes`] says of the tree over them.
+    pub fn peak_bytes(instances: usize) -> u64 {
+        let held = size_of::<Instance>() + size_of::<Place>() + size_of::<Aabb<3>>();
+        options().peak_bytes(instances).saturating_add((held * instances) as u64)
     }
 
     /// The same scene, for rays that see only the instances whose mask shares a bit with `mask`.
@@ -148,7 +173,7 @@ impl<T: Precision> InstancedScene<T> {
         &self.parts.tree
     }
 
-    /// The coordinates that the tree over the instances is in: for geometries in f32 the world's.
+    /// The coordinates that the tree over the instances is in.
     pub fn tree_space(&self) -> &TreeSpace {
         &self.parts.space
     }
@@ -209,6 +234,9 @@ impl<T: Precision> InstancedScene<T> {
 
     /// The normal of what was hit, in the world, on the side that is the front: of twice the area of the
     /// placed triangle in length.
+    ///
+    /// # Panics
+    /// If the hit is of another scene, and there is no such instance or triangle here.
     pub fn geometric_normal(&self, found: &InstanceHit) -> [f64; 3] {
         let mesh = self.parts.geometries[found.geometry_id as usize].mesh();
         let corners = mesh.corners(found.hit.primitive_id).map(|p| DVec3::from(p.map(T::to_f64)));
@@ -217,8 +245,7 @@ impl<T: Precision> InstancedScene<T> {
 
     /// The leaves of the tree over the instances that a ray passes.
     pub(super) fn walk(&self, ray: &Ray) -> LeafWalk<'_, 3> {
-        let in_tree = if T::FITS_TREE { Some(*ray) } else { self.parts.space.ray(ray) };
-        LeafWalk::seen_as(&self.parts.tree, ray, in_tree, &mut ())
+        LeafWalk::seen_as(&self.parts.tree, ray, self.parts.space.ray(ray), &mut ())
     }
 
     /// Whether this scene's rays see an instance.
@@ -244,6 +271,28 @@ impl<T: Precision> InstancedScene<T> {
     }
 }
 
+/// Where the instances are.
+fn placed<T: Precision>(
+    geometries: &[Scene<T>],
+    instances: &[Instance],
+    progress: &(dyn Fn(BuildProgress) -> ControlFlow<()> + Sync),
+) -> Result<Vec<Place>, InstancedSceneError> {
+    let place = |(index, instance): (usize, &Instance)| {
+        if index.is_multiple_of(INSTANCES_PER_REPORT) {
+            let fraction = PLACING * index as f64 / instances.len() as f64;
+            if progress(BuildProgress { fraction }).is_break() {
+                return Err(BuildError::Cancelled.into());
+            }
+        }
+        let geometry = geometry(geometries, index, instance)?;
+        let bounds = Some(geometry.tree().bounds()).filter(|bounds| !bounds.is_empty());
+        let space = geometry.mesh().tree_space();
+        let corners = bounds.map(|bounds| space.corners_in_mesh(bounds));
+        Ok(Place::of(index, instance, corners)?)
+    };
+    instances.iter().enumerate().map(place).collect()
+}
+
 /// Puts instances of nothing into a corner of another, so that they do not stretch the scene. Where all are of nothing,
 /// they stay where their origins are.
 fn hide_empty(places: &mut [Place]) {
@@ -257,16 +306,26 @@ fn hide_empty(places: &mut [Place]) {
 }
 
 /// The coordinates of the tree over the instances.
-fn space_around<T: Precision>(places: &[Place]) -> TreeSpace {
+fn space_around(places: &[Place]) -> TreeSpace {
     let around =
         |(low, high): (DVec3, DVec3), place: &Place| (low.min(place.low), high.max(place.high));
     let (min, max) = places.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), around);
-    TreeSpace::around::<T>(min.into(), max.into())
+    // In f64, whatever the geometries are: boxes far from zero must not be wide there.
+    TreeSpace::around::<f64>(min.into(), max.into())
+}
+
+/// Those of the tree over the boxes of the instances.
+fn options() -> BuildOptions {
+    BuildOptions::for_strategy(Strategy::Sah)
 }
 
 /// The tree over the boxes of the instances. Apart, so that it is compiled once.
-fn tree_over(boxes: Vec<Aabb<3>>) -> Result<KdTree, BuildError> {
-    KdTree::build(&Boxes(boxes), &BuildOptions::for_strategy(Strategy::Sah))
+fn tree_over(
+    boxes: Vec<Aabb<3>>,
+    options: &BuildOptions,
+    progress: &(dyn Fn(BuildProgress) -> ControlFlow<()> + Sync),
+) -> Result<KdTree, BuildError> {
+    KdTree::build_with_progress(&Boxes(boxes), options, progress)
 }
 
 /// The geometry of the instance of that index.
