@@ -24,10 +24,18 @@ pub(super) fn join_if<A: Send, B: Send>(
     if large { join(a, b) } else { (a(), b()) }
 }
 
+/// Fewer items stay on this thread, so that a build of a small mesh never waits for the pool: whoever builds one in a
+/// task of the pool, under a lock or in a `OnceLock`, would be given another such task meanwhile, and wait for itself.
+#[cfg(feature = "rayon")]
+const FEW: u32 = 1 << 12;
+
 /// `f` of all numbers below `end`, in order.
 #[cfg(feature = "rayon")]
 pub(super) fn map_range<T: Send>(end: u32, f: impl Fn(u32) -> T + Sync) -> Vec<T> {
     use rayon::prelude::*;
+    if end < FEW {
+        return (0..end).map(f).collect();
+    }
     (0..end).into_par_iter().map(&f).collect()
 }
 
@@ -41,6 +49,9 @@ pub(super) fn map_range<T>(end: u32, f: impl Fn(u32) -> T) -> Vec<T> {
 #[cfg(feature = "rayon")]
 pub(super) fn sort<T: Ord + Send>(items: &mut [T]) {
     use rayon::prelude::*;
+    if items.len() < 2 * FEW as usize {
+        return items.sort_unstable();
+    }
     items.par_sort_unstable();
 }
 
@@ -96,4 +107,19 @@ pub(crate) fn map_all<T: Send, R: Send>(items: Vec<T>, f: impl Fn(T) -> R + Sync
 #[cfg(not(feature = "rayon"))]
 pub(crate) fn map_all<T, R>(items: Vec<T>, f: impl Fn(T) -> R) -> Vec<R> {
     items.into_iter().map(f).collect()
+}
+
+#[cfg(all(test, feature = "rayon"))]
+mod tests {
+    use super::*;
+    use std::thread;
+
+    #[test]
+    fn few_items_stay_on_this_thread() {
+        let here = thread::current().id();
+        let all_here = |end: u32| map_range(end, |_| thread::current().id() == here);
+        assert!(all_here(FEW - 1).into_iter().all(|is_here| is_here));
+        // A thread that is none of the pool's waits for it.
+        assert!(all_here(FEW).into_iter().all(|is_here| !is_here));
+    }
 }

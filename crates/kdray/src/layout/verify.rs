@@ -27,6 +27,9 @@ const LEAST_MARGIN: f32 = 10.0;
 /// How many levels of wide nodes are verified on several threads: enough for some hundred parts.
 const LEVELS: usize = 3;
 
+/// Trees with fewer nodes are verified on this thread.
+const LARGE: usize = 1 << 12;
+
 struct Verifier<'a, T: 'static> {
     wide: &'a WideTree,
     tree: &'a KdTree<3>,
@@ -63,7 +66,8 @@ impl<T: Coordinate> Verifier<'_, T> {
     fn verify(&self) -> Result<(), WideError> {
         let root = Aabb { min: [f32::NEG_INFINITY; 3], max: [f32::INFINITY; 3] };
         let stand = Stand { node: 0, cell: *self.tree.bounds(), site: Site::ROOT, bounds: root };
-        self.verify_node(Link::ROOT, &stand, LEVELS)?;
+        let levels = if self.tree.nodes().len() < LARGE { 0 } else { LEVELS };
+        self.verify_node(Link::ROOT, &stand, levels)?;
         let homes = &self.wide.homes;
         let above = Homes::above_each_slot(homes.list(), &self.wide.arena);
         if above == **homes.numbers_above() { Ok(()) } else { Err(WideError::WrongNodeAbove) }

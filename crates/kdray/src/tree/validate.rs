@@ -130,6 +130,11 @@ fn first_error(
     check: impl Fn(usize) -> Result<(), TreeError> + Sync,
 ) -> Result<(), TreeError> {
     use rayon::prelude::*;
+    // Small trees do not wait for the pool, as they are built.
+    const FEW: usize = 1 << 12;
+    if end < FEW {
+        return (0..end).try_for_each(check);
+    }
     (0..end).into_par_iter().map(&check).find_first(Result::is_err).unwrap_or(Ok(()))
 }
 
