@@ -41,6 +41,30 @@ fn every_strategy_builds_valid_trees() {
 }
 
 #[test]
+fn a_side_too_thin_to_be_cut_leaves_the_others() {
+    // At 2^24 numbers of f32 are two apart: x is the longest side, and there is no plane in it.
+    let far = |i: u32| [16_777_216.0, (i % 40) as f32 / 40.0, (i / 40) as f32 / 50.0];
+    let triangle = |i: u32| {
+        let [x, y, z] = far(i);
+        [[x, y, z], [x + 2.0, y + 0.01, z], [x, y, z + 0.01]]
+    };
+    let mesh = mesh((0..2000).map(triangle).collect());
+    for strategy in Strategy::ALL {
+        let options = BuildOptions::for_strategy(strategy);
+        let tree = checked_tree("far plate", &mesh, &options);
+        let largest = tree.stats(2000, &options.cost).largest_leaf;
+        assert!(largest < 100, "{strategy:?}: {largest}");
+    }
+}
+
+#[test]
+fn figures_of_a_tree_can_be_had_by_any_cost_model() {
+    let tree = checked_tree("balls", &balls(20), &BuildOptions::default());
+    let no_block = CostModel { block: 0, ..CostModel::default() };
+    assert!(tree.stats(20, &no_block).sah_cost > 0.0);
+}
+
+#[test]
 fn the_sweep_and_the_naive_builder_give_the_same_tree() {
     let tuned = BuildOptions::for_strategy(Strategy::Sah);
     let lecture = BuildOptions { cost: CostModel::LECTURE, leaf_size: 3, ..tuned };

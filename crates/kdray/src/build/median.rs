@@ -7,7 +7,7 @@ use super::steps::{ChoosePlane, NodeView};
 /// bounds, clipped to the node's cell. Half of the middles lie below it, half above.
 ///
 /// Where the median is no plane inside the cell, because most primitives lie in one of its faces,
-/// the middle of the cell takes its place.
+/// the middle of the cell takes its place: of its longest side that can be cut.
 pub(super) struct Median;
 
 impl<const K: usize> ChoosePlane<K> for Median {
@@ -28,6 +28,6 @@ impl<const K: usize> ChoosePlane<K> for Median {
         let is_odd = node.references.len() % 2 == 1;
         let median = if is_odd { upper_median } else { 0.5 * (lower_median + upper_median) };
         SplitPlane::inside(node.cell, axis, median as f32)
-            .or_else(|| SplitPlane::middle(node.cell, axis))
+            .or_else(|| SplitPlane::middle_of_longest(node.cell))
     }
 }

@@ -3,7 +3,7 @@
 use super::plane::SplitPlane;
 use super::steps::{ChoosePlane, NodeView};
 
-/// The spatial median.
+/// The spatial median. Where the longest side is too thin to be cut, as far from zero, the longest that is not.
 pub(super) struct Middle;
 
 impl<const K: usize> ChoosePlane<K> for Middle {
@@ -11,6 +11,6 @@ impl<const K: usize> ChoosePlane<K> for Middle {
     type Scratch = ();
 
     fn choose(&self, node: &NodeView<'_, K>, (): &(), (): &mut ()) -> Option<SplitPlane> {
-        SplitPlane::middle(node.cell, node.cell.longest_axis())
+        SplitPlane::middle_of_longest(node.cell)
     }
 }

@@ -35,4 +35,9 @@ impl SplitPlane {
     pub(super) fn middle<const K: usize>(cell: &Aabb<K>, axis: usize) -> Option<Self> {
         Self::inside(cell, axis, cell.center()[axis] as f32)
     }
+
+    /// The plane through the middle of the cell's longest side that is not too thin to have one.
+    pub(super) fn middle_of_longest<const K: usize>(cell: &Aabb<K>) -> Option<Self> {
+        cell.axes_by_length().into_iter().find_map(|axis| Self::middle(cell, axis))
+    }
 }

@@ -65,6 +65,14 @@ impl<const K: usize> Aabb<K> {
         (1..K).fold(0, |best, axis| if extent[axis] > extent[best] { axis } else { best })
     }
 
+    /// All axes, those of longer sides first; of equals in their order.
+    pub(crate) fn axes_by_length(&self) -> [usize; K] {
+        let extent = self.extent();
+        let mut axes = std::array::from_fn(|axis| axis);
+        axes.sort_by(|&a: &usize, &b: &usize| extent[b].total_cmp(&extent[a]));
+        axes
+    }
+
     /// The length of the diagonal.
     pub fn diagonal(&self) -> f64 {
         self.extent().iter().map(|e| e * e).sum::<f64>().sqrt()

@@ -128,7 +128,7 @@ impl CostModel {
     /// The cost of a leaf of `count` primitives, for a line that meets it.
     pub fn leaf(&self, count: usize) -> f64 {
         let visit = if count == 0 { 0.0 } else { self.leaf };
-        visit + self.intersection * count.div_ceil(self.block) as f64
+        visit + self.intersection * count.div_ceil(self.block.max(1)) as f64
     }
 
     /// The cost of a split, for a line that meets the node: the chances that it meets the lower and
@@ -143,7 +143,7 @@ impl CostModel {
     /// For how many tests so many primitives count while a cut is weighed.
     #[inline]
     fn weight(&self, count: usize) -> f64 {
-        let mask = self.block - 1;
+        let mask = self.block.max(1) - 1;
         let in_blocks = (count + mask) & !mask;
         // Signed numbers become floats faster.
         0.5 * (count + in_blocks) as i64 as f64
