@@ -80,8 +80,8 @@ impl Clusters {
         let ids = 0..mesh.count() as u32;
         let space = ClusterSpace::of(mesh);
         let corners = |id: u32| space.corners(mesh, id);
-        let mut pieces: Vec<Piece> =
-            ids.filter_map(|id| Piece::of(id, corners(id), || has_tiny_area(mesh, id))).collect();
+        let mut pieces = Vec::with_capacity(mesh.count());
+        pieces.extend(ids.filter_map(|id| Piece::of(id, corners(id), || has_tiny_area(mesh, id))));
         let mut clusters = Vec::with_capacity(pieces.len() / 2);
         if !pieces.is_empty() {
             let last = pieces.len();

@@ -16,6 +16,10 @@ pub type SharedBytes = Arc<dyn AsRef<[u8]> + Send + Sync>;
 /// Bytes that a scene lies in.
 pub(crate) struct Source(pub(crate) SharedBytes);
 
+/// As of [`Store`].
+impl std::panic::UnwindSafe for Source {}
+impl std::panic::RefUnwindSafe for Source {}
+
 impl std::fmt::Debug for Source {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{} bytes", (*self.0).as_ref().len())

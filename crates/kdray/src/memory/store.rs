@@ -4,6 +4,7 @@ use super::SharedBytes;
 use bytemuck::{Pod, bytes_of_mut, try_cast_slice};
 use std::fmt::{Debug, Formatter};
 use std::ops::{Deref, Range};
+use std::panic::{RefUnwindSafe, UnwindSafe};
 use std::sync::Arc;
 use yoke::Yoke;
 
@@ -148,11 +149,16 @@ impl<T> Clone for Store<T> {
     }
 }
 
-impl<T: Debug> Debug for Store<T> {
+/// How many items there are: a scene has millions.
+impl<T> Debug for Store<T> {
     fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
-        (**self).fmt(f)
+        write!(f, "{} items", self.len())
     }
 }
+
+/// What the owner has does not change, so a panic leaves nothing half done.
+impl<T> UnwindSafe for Store<T> {}
+impl<T> RefUnwindSafe for Store<T> {}
 
 impl<T: PartialEq> PartialEq for Store<T> {
     fn eq(&self, other: &Self) -> bool {

@@ -119,12 +119,18 @@ impl<T: Coordinate> TriangleMesh<T> {
     }
 
     /// The corners a, b, c of a triangle.
+    ///
+    /// # Panics
+    /// If there is no triangle of that id.
     pub fn corners(&self, id: u32) -> [[T; 3]; 3] {
         let [a, b, c] = self.triangles[id as usize];
         [self.vertices[a as usize], self.vertices[b as usize], self.vertices[c as usize]]
     }
 
     /// (b−a) x (c−a) of a triangle: its normal, of twice its area in length.
+    ///
+    /// # Panics
+    /// If there is no triangle of that id.
     pub fn geometric_normal(&self, id: u32) -> [f64; 3] {
         let [a, b, c] = self.corners(id).map(|p| glam::DVec3::from(p.map(T::to_f64)));
         (b - a).cross(c - a).into()

@@ -8,7 +8,8 @@ pub enum Arithmetic {
     #[default]
     Exact,
     /// Plain floating point in f32, as in other libraries: somewhat faster, but rays may slip
-    /// through edges and vertices, and t, u and v are good to some five digits. Scenes of f64 vertices
+    /// through edges and vertices, and t, u and v are good to some five digits, the last of which depend on the
+    /// [`InstructionSet`](crate::InstructionSet). Scenes of f64 vertices
     /// are exact by this, too, and so are those rays of a packet that it answers as one.
     Float,
 }

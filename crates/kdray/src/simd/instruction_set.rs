@@ -7,8 +7,9 @@ use thiserror::Error;
 
 /// A set of vector instructions that this processor has, and for which the kernels are compiled.
 ///
-/// Every set gives the same hits; they differ in speed only. [`InstructionSet::best`] is what a
-/// scene takes by itself.
+/// Every set gives the same hits, to the last bit; they differ in speed only. Those of
+/// [`Arithmetic::Float`](crate::Arithmetic::Float) may differ in their last digits, and in what grazes an edge.
+/// [`InstructionSet::best`] is what a scene takes by itself.
 #[derive(Clone, Copy, Debug)]
 pub struct InstructionSet(Token);
 

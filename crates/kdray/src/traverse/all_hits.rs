@@ -12,7 +12,7 @@ use std::iter::FusedIterator;
 /// soon as no later leaf can hold an earlier one; till then it is `pending`. So who wants a few stops
 /// asking, or says [`take`](Iterator::take), and pays for no more; [`after`](Self::after) goes on
 /// later.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 #[must_use = "hits are found only as they are asked for"]
 pub struct AllHits<'a, P, const K: usize, T = ()> {
     primitives: &'a P,

@@ -53,6 +53,9 @@ impl<const K: usize> KdTree<K> {
     }
 
     /// The primitives that a leaf lists; nothing for an inner node.
+    ///
+    /// # Panics
+    /// If there is no node of that number.
     pub fn leaf_primitives(&self, node: u32) -> &[u32] {
         match self.nodes[node as usize].kind() {
             NodeKind::Leaf { first, count } => {

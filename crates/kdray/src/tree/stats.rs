@@ -4,6 +4,7 @@ use super::{CostModel, KdTree, NodeKind};
 
 /// What a tree is made of, and what it is expected to cost.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct TreeStats {
     /// How many primitives the tree was built over.
     pub primitives: usize,

@@ -43,7 +43,8 @@ impl FloatHit {
         let w = (1.0 - u - v).max(0.0);
         // The shares of the corners b and c, which stand `turns` places before 1 and 2.
         let (u, v) = match block.turns(lane) {
-            0 => (u, v),
+            // Rounded, they may be more than one together.
+            0 => (u.min(1.0), v.min(1.0 - u.min(1.0))),
             1 => (w, u),
             _ => (v, w),
         };
