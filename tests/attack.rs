@@ -38,6 +38,9 @@ fn assert_right(targets: Vec<AnyTarget>, rays: u64) {
         let was_hard = tally.crossing > 0 && tally.close > 0 && tally.oracle > 0;
         assert!(was_hard, "{name} was hardly attacked: {tally:?}");
     }
+    let all = outcomes.iter().fold(Tally::default(), |sum, it| sum.and(it.tally.clone()));
+    let were_asked = [all.packets, all.copied, all.points, all.files].iter().all(|&n| n > 0);
+    assert!(were_asked && outcomes.iter().any(|it| it.trees.1 > 0), "not all was asked: {all:?}");
 }
 
 #[test]

@@ -28,6 +28,9 @@ const SOME_RAYS: usize = 16;
 /// Directions from the first to the second are ordinary.
 const ORDINARY: Range<f64> = 1e-30..1e30;
 
+/// Directions from the first to the second are halved so often now and then: f64 ends before t is 2^1024.
+const TO_THE_END: Range<i32> = 1016..1028;
+
 /// How many points in the inside of a closed mesh are sought.
 const INSIDE: usize = 64;
 
@@ -67,6 +70,17 @@ enum Share {
     Origin,
     Target,
     Direction,
+}
+
+/// What is made of the length of directions.
+#[derive(Clone, Copy, Debug)]
+enum Length {
+    /// Targets are at t = 1.
+    AsItIs,
+    /// The kernels take them.
+    Ordinary,
+    /// Hits are where f64 ends.
+    Halved(i32),
 }
 
 /// Makes volleys at a target.
@@ -157,8 +171,16 @@ impl<'a, T: Precision> Gunner<'a, T> {
         random: &mut Pcg64Mcg,
     ) -> Volley {
         let place = |random: &mut Pcg64Mcg| self.origin(from, &far, random);
-        let is_made_ordinary = random.random();
-        let of_length = |d: [f64; 3]| if is_made_ordinary { of_ordinary_length(d) } else { d };
+        let length = match random.random_range(0..160) {
+            0..80 => Length::AsItIs,
+            80..159 => Length::Ordinary,
+            _ => Length::Halved(random.random_range(TO_THE_END)),
+        };
+        let of_length = |d: [f64; 3]| match length {
+            Length::AsItIs => d,
+            Length::Ordinary => of_ordinary_length(d),
+            Length::Halved(times) => times_power_of_two(d, -times),
+        };
         let packet = match share {
             Share::Origin => {
                 let origin = place(random);
@@ -235,7 +257,7 @@ impl<'a, T: Precision> Gunner<'a, T> {
                 direction[axis] = if random.random() { length } else { -length };
             }
             2 => direction[axis] = zero,
-            3 => direction = direction.map(|d| d * 2.0_f64.powi(random.random_range(-60..60))),
+            3 => direction = times_power_of_two(direction, random.random_range(-60..60)),
             _ => {}
         }
         direction
@@ -323,8 +345,11 @@ fn of_ordinary_length(direction: [f64; 3]) -> [f64; 3] {
     if ORDINARY.contains(&largest) || !largest.is_normal() {
         return direction;
     }
-    // In two steps, for the power may be none that f64 has.
-    let exponent = -largest.log2().floor() as i32;
+    times_power_of_two(direction, -largest.log2().floor() as i32)
+}
+
+/// In two steps, for the power may be none that f64 has.
+fn times_power_of_two(direction: [f64; 3], exponent: i32) -> [f64; 3] {
     let (first, rest) = (2.0_f64.powi(exponent / 2), 2.0_f64.powi(exponent - exponent / 2));
     direction.map(|d| d * first * rest)
 }

@@ -35,10 +35,13 @@ impl<T: Attacked> Visit<'_, T> {
             true => saved::damage(scene, &volley, volleys, &mut random),
             false => Tally::default(),
         };
-        let copies = Copies::new(scene, flat, &mut random);
         let every = |number: u64| number.div_ceil(VOLLEYS_PER_COPIED[stage]);
         let shots = every(numbers.end) - every(numbers.start);
-        let copied = copies.map(|copies| copies.attack(shots, &mut random)).unwrap_or_default();
+        let copied = match Copies::new(scene, flat, &mut random) {
+            Ok(Some(copies)) => copies.attack(shots, &mut random),
+            Ok(None) => Tally::default(),
+            Err(error) => Tally::refused(&error),
+        };
         [saved, damaged, copied].into_iter().fold(points, Tally::and)
     }
 }

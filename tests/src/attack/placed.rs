@@ -10,6 +10,7 @@ use super::verdict::judge_hits;
 use super::{FEW, Tally, Target, Truth};
 use crate::flat::Flat;
 use crate::meshes::{Soup, mesh};
+use kdray::query::InstancedSceneError;
 use kdray::{
     BuildOptions, Coordinate, Hit, Instance, InstanceHit, InstancedScene, Precision, Ray, Scene,
     Side,
@@ -98,40 +99,49 @@ pub struct Copies<'a, T: 'static = f32> {
     placings: Vec<Placing>,
     scene: InstancedScene<T>,
     all: Target<T>,
+    /// Of all triangles, to aim by.
+    scene_of_all: Scene<T>,
 }
 
 impl<'a, T: Precision> Copies<'a, T> {
     /// Copies of the mesh of `scene`; `None` if there are none that round nothing, or too many triangles.
-    pub fn new(scene: &Scene<T>, flat: &'a Flat<T>, random: &mut Pcg64Mcg) -> Option<Self> {
+    ///
+    /// # Errors
+    /// If kdray refuses what there is no reason to refuse.
+    pub fn new(
+        scene: &Scene<T>,
+        flat: &'a Flat<T>,
+        random: &mut Pcg64Mcg,
+    ) -> Result<Option<Self>, InstancedSceneError> {
         let mesh_of_one = scene.mesh();
         let triangles = mesh_of_one.triangles().len() as u32;
         if triangles as usize > FEW {
-            return None;
+            return Ok(None);
         }
         let soup: Soup<T> = (0..triangles).map(|id| mesh_of_one.corners(id)).collect();
         let (placings, all) = placed(&soup, random);
         let instances = placings.iter().enumerate().map(|(index, it)| it.instance(1 << index));
-        let copies = InstancedScene::build(vec![scene.clone()], instances.collect()).ok()?;
+        let copies = InstancedScene::build(vec![scene.clone()], instances.collect())?;
         let all = Target::new("copies", mesh(all));
+        let scene_of_all = Scene::build(all.mesh.clone(), &BuildOptions::default())?;
         let has_some = !placings.is_empty();
-        has_some.then_some(Self { flat, triangles, placings, scene: copies, all })
+        let copies = Self { flat, triangles, placings, scene: copies, all, scene_of_all };
+        Ok(has_some.then_some(copies))
     }
 
     /// Shoots as many volleys at the copies that a mask shows.
     pub fn attack(&self, volleys: u64, random: &mut Pcg64Mcg) -> Tally {
         let mut tally = Tally::default();
         let flat = Flat::new(&self.all.mesh);
-        let Ok(scene) = Scene::build(self.all.mesh.clone(), &BuildOptions::default()) else {
-            return tally;
-        };
         let gunner = Gunner::new(&self.all, &flat, random.random());
         for _ in 0..volleys {
             let mask = if random.random() { u32::MAX } else { random.random_range(0..1 << COPIES) };
             let copies = self.scene.clone().with_mask(mask);
-            let volley = gunner.volley(random.random_range(0..1 << 20), &scene);
+            let volley = gunner.volley(random.random_range(0..1 << 20), &self.scene_of_all);
             for ray in &volley.rays {
                 if let Some(truth) = self.truth(&flat, ray, mask) {
                     let walked = self.walked(&copies, ray);
+                    tally.copied += 1;
                     judge_hits(&mut tally, ray, &truth, &walked);
                     self.judge_the_rest(&mut tally, &copies, ray, &walked);
                 }

@@ -230,9 +230,7 @@ pub fn judge<T: Coordinate>(
         check(said.winding == winding as f64, &|| format!("winding number, counted: {winding}"));
     }
     if let Some(winding) = truth.winding_number(question.point).filter(|_| !is_on_surface) {
-        // So near to a surface that the sum may have it on either side.
-        let is_leaping = closest.distance <= target.extent.doubt();
-        let is_right = is_leaping || (said.winding - winding).abs() < WINDING_ERROR;
+        let is_right = (said.winding - winding).abs() < WINDING_ERROR;
         check(is_right, &|| format!("winding number: {winding}"));
     }
     let is_visible = truth.is_visible(question.point, question.other);

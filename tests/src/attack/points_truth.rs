@@ -4,7 +4,7 @@ use super::target::Target;
 use super::truth::Place;
 use super::{FEW, Truth};
 use crate::flat::Flat;
-use crate::oracle::{exact_distance_squared, is_between};
+use crate::oracle::{exact_distance_squared, exact_half_angle, is_between};
 use glam::DVec3;
 use kdray::{Coordinate, Interval, Ray, Side};
 use num_bigint::BigInt;
@@ -13,6 +13,9 @@ use num_traits::ToPrimitive;
 
 /// Differences, lengths, products and sums of a solid angle have fewer than thirty roundings.
 const ROUNDINGS: f64 = 32.0 / (1_u64 << 53) as f64;
+
+/// An angle whose sine and cosine, times the same length, are less may be off by more than a millionth.
+const SHORT: f64 = 1e6 * ROUNDINGS;
 
 /// What is known of a mesh.
 pub struct PointTruth<'a, T: 'static = f32> {
@@ -51,7 +54,7 @@ impl<'a, T: Coordinate> PointTruth<'a, T> {
     }
 
     /// Whether a point that is not on the surface is inside: by the parity of crossings where the mesh is closed,
-    /// else by the winding number, unless that is too near to a half, or too long a sum.
+    /// else by the winding number, unless that is too near to a half, or of too many triangles.
     pub fn contains_off_surface(&self, point: [f64; 3]) -> Option<bool> {
         if self.target.is_closed {
             return Some(self.ahead(point).count() % 2 == 1);
@@ -60,14 +63,17 @@ impl<'a, T: Coordinate> PointTruth<'a, T> {
         ((number - 0.5).abs() > 0.02).then_some(number > 0.5)
     }
 
-    /// The sum of all solid angles, as a share of the sphere; `None` if it is too long, or the point so near a
-    /// triangle, or so far away, that rounding may put it on the other side.
+    /// The sum of all solid angles, as a share of the sphere, of a point that is not on the surface; `None` if there
+    /// are too many triangles.
     pub fn winding_number(&self, point: [f64; 3]) -> Option<f64> {
         let count = self.target.mesh.triangles().len();
-        let point = DVec3::from(point) * self.flat.scale();
-        let angle = |id: u32| half_angle(self.scaled(id).map(|p| p - point));
-        let sum = || (0..count as u32).map(angle).sum::<Option<f64>>();
-        Some((count <= FEW).then(sum)?? / std::f64::consts::TAU)
+        let seen_from = DVec3::from(point) * self.flat.scale();
+        let angle = |id: u32| {
+            let plain = half_angle(self.scaled(id).map(|p| p - seen_from));
+            plain.unwrap_or_else(|| exact_half_angle(&self.target.mesh.corners(id), point))
+        };
+        let sum = || (0..count as u32).map(angle).sum::<f64>();
+        Some((count <= FEW).then(sum)? / std::f64::consts::TAU)
     }
 
     /// The corners of a triangle, in units of which products neither over- nor underflow.
@@ -145,11 +151,13 @@ pub(super) fn is_difference_exact(a: f64, b: f64) -> bool {
     difference.is_finite() && (a - a_again) + (b_again - b) == 0.0
 }
 
-/// Half the solid angle of a triangle whose corners are seen there (van Oosterom and Strackee 1983).
+/// Half the solid angle of a triangle whose corners are seen there (van Oosterom and Strackee 1983); `None` if the
+/// point is so near that rounding may put it on the other side, or turn it around an edge.
 fn half_angle(corners: [DVec3; 3]) -> Option<f64> {
     let [a, b, c] = corners.map(unit);
     let (volume, facing) = (a.dot(b.cross(c)), 1.0 + a.dot(b) + b.dot(c) + c.dot(a));
-    (volume.abs() > ROUNDINGS || facing > ROUNDINGS).then(|| volume.atan2(facing))
+    let is_sure = volume.abs() > ROUNDINGS || facing > ROUNDINGS;
+    (is_sure && volume.hypot(facing) > SHORT).then(|| volume.atan2(facing))
 }
 
 /// The normal of a triangle that is not so thin that rounding turns it.

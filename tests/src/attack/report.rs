@@ -4,7 +4,7 @@ use super::Tally;
 use super::campaign::Outcome;
 
 /// What stands above the columns.
-const HEAD: [&str; 19] = [
+const HEAD: [&str; 20] = [
     "target",
     "triangles",
     "rays",
@@ -12,6 +12,7 @@ const HEAD: [&str; 19] = [
     "close",
     "oracle",
     "packets",
+    "copied",
     "points",
     "files",
     "lost",
@@ -43,8 +44,8 @@ pub fn table(outcomes: &[Outcome]) -> String {
 }
 
 fn row(name: String, triangles: usize, tally: &Tally, trees: (u64, u64)) -> Vec<String> {
-    let Tally { rays, crossing, close, oracle, packets, points, files, .. } = *tally;
-    let counts = [triangles as u64, rays, crossing, close, oracle, packets, points, files];
+    let Tally { rays, crossing, close, oracle, packets, copied, points, files, .. } = *tally;
+    let counts = [triangles as u64, rays, crossing, close, oracle, packets, copied, points, files];
     let cells = counts.into_iter().chain(tally.by_kind()).map(|count| count.to_string());
     std::iter::once(name).chain(cells).chain([format!("{} of {}", trees.0, trees.1)]).collect()
 }
@@ -53,10 +54,11 @@ fn row(name: String, triangles: usize, tally: &Tally, trees: (u64, u64)) -> Vec<
 pub const LEGEND: &str = "\
 crossing: rays that cross the target; close: rays that meet an edge or a vertex, or so nearly that rational
 arithmetic decided; oracle: rays of which t, u, v and side of all hits were compared with rational arithmetic;
-packets: answers that packets of rays gave and did not leave to the kernels of single rays; points: points that were asked about; files: tree files that were read, nearly all of them damaged.
+packets: answers that packets of rays gave and did not leave to the kernels of single rays; copied: rays at copies;
+points: points that were asked about; files: tree files that were read, nearly all of them damaged.
 lost, phantom: hits or rays that hit; miscounted: rays whose count, or its parity, is wrong; disordered: hits
 before nearer ones; duplicate: hits reported twice; numbers: hits with a wrong t, u, v or side; kernels: answers
-that are not those of the leaf walk to the last bit; misjudged: wrong answers about points; misread: damaged
+that are not those of the leaf walk to the last bit, or copies that were refused; misjudged: wrong answers about points; misread: damaged
 files that were not refused, and whole ones that answer otherwise; trees: builds and traces on other numbers of threads, or by
 other instruction sets, that differ in a byte, of so many.";
 
@@ -91,6 +93,6 @@ mod tests {
         let lines: Vec<Vec<&str>> =
             table.lines().map(|line| line.split_whitespace().collect()).collect();
         assert_eq!(lines[0].len(), HEAD.len());
-        assert_eq!(lines[3].join(" "), "all 0 128 0 0 0 0 0 0 6 0 0 0 0 0 10 0 0 2 of 16");
+        assert_eq!(lines[3].join(" "), "all 0 128 0 0 0 0 0 0 0 6 0 0 0 0 0 10 0 0 2 of 16");
     }
 }

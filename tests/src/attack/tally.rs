@@ -1,5 +1,6 @@
 //! Wrong answers, counted by what is wrong with them.
 
+use kdray::query::InstancedSceneError;
 use std::fmt::Debug;
 
 /// How many answers are wrong, by what is wrong with them.
@@ -17,6 +18,8 @@ pub struct Tally {
     pub oracle: u64,
     /// How many answers about them were those of packets, which leave others to the kernels of single rays.
     pub packets: u64,
+    /// How many were rays at copies.
+    pub copied: u64,
     /// Hits that are not in a list, or rays that hit something and are said not to.
     pub lost: u64,
     /// Hits that are none, or rays that hit nothing and are said to.
@@ -44,6 +47,11 @@ pub struct Tally {
 }
 
 impl Tally {
+    /// Of copies that cannot be had, though there is nothing wrong with them.
+    pub(super) fn refused(error: &InstancedSceneError) -> Self {
+        Self { differing: 1, example: Some(format!("copies: {error}")), ..Self::default() }
+    }
+
     /// How much is wrong.
     pub fn errors(&self) -> u64 {
         self.by_kind().iter().sum()
@@ -74,6 +82,7 @@ impl Tally {
             deepest: self.deepest.max(other.deepest),
             oracle: self.oracle + other.oracle,
             packets: self.packets + other.packets,
+            copied: self.copied + other.copied,
             lost: self.lost + other.lost,
             phantom: self.phantom + other.phantom,
             miscounted: self.miscounted + other.miscounted,

@@ -81,7 +81,9 @@ fn in_f64() -> Vec<Target<f64>> {
     let (sphere, torus) = (|| soup_of(&meshes::sphere(8)), || soup_of(&meshes::torus(16, 10)));
     let (small, few) = (|| soup_of(&meshes::sphere(4)), || meshes::soup(12, [0.0; 3], 1.0, 9));
     let placed = |soup: &Soup, scale: f64| meshes::placed(soup, scale, [0.0; 3]);
-    let bent = |[x, y, z]: [f64; 3]| [0.1 * x + 0.3, y / 3.0, 0.7 * z - 0.2 * x];
+    // Of few digits, though more than f32 has: so that the way to a vertex need not be rounded.
+    let snapped = |p: [f64; 3]| p.map(|x| meshes::snapped(x, 1.0));
+    let bent = |[x, y, z]: [f64; 3]| snapped([0.1 * x + 0.3, y / 3.0, 0.7 * z - 0.2 * x]);
     let by = |soup: Soup, by: &dyn Fn([f64; 3]) -> [f64; 3]| -> Soup<f64> {
         meshes::in_f64(&soup).into_iter().map(|triangle| triangle.map(by)).collect()
     };
@@ -106,7 +108,10 @@ fn in_f64() -> Vec<Target<f64>> {
             "f64: soup in a sphere, size 1e200",
             [placed(&small(), 1e200), placed(&few(), 1.0)].concat(),
         ),
-        of("f64: sphere, 1e6 x 1 x 1e-6", by(sphere(), &|[x, y, z]| [1e6 * x, y / 3.0, 1e-6 * z])),
+        of(
+            "f64: sphere, 1e6 x 1 x 1e-6",
+            by(sphere(), &|[x, y, z]| snapped([1e6 * x, y / 3.0, 1e-6 * z])),
+        ),
         of("f64: fan of needles", by(soup_of(&meshes::spindle(100, 1e-5)), &bent)),
         of("f64: soup", by(meshes::soup(300, [0.0; 3], 1.0, 5), &bent)),
         of(

@@ -9,7 +9,9 @@ use crate::oracle::exact_triangle_hit;
 use glam::{DVec3, Vec3Swizzles};
 use kdray::primitives::HitRule;
 use kdray::{Coordinate, Interval, Ray, Side};
+use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive};
+use std::ops::Range;
 
 /// An edge function, or a volume, of six products has fewer than ten roundings, each at most 2^-53 of the
 /// sum of the absolute values of its terms.
@@ -21,6 +23,9 @@ const T_ERROR: f64 = 1.0 / (1_u64 << 40) as f64;
 /// What kdray's t may differ by: its documented 2^-39, and the error here.
 const T_TOLERANCE: f64 = 1.0 / (1_u64 << 38) as f64;
 
+/// Directions of such lengths are looked at as they are.
+const ORDINARY: Range<f64> = 1e-60..1e60;
+
 /// All hits on the whole line of a ray, by rising id.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Truth {
@@ -30,6 +35,8 @@ pub struct Truth {
     pub crossed: Vec<TrueHit>,
     /// Whether the line meets an edge or a vertex, or so nearly that the oracle was asked.
     pub is_close: bool,
+    /// Whether it meets a triangle at a t beyond f64, which is no hit: then parity tells nothing.
+    pub reaches_beyond: bool,
 }
 
 /// A hit.
@@ -90,9 +97,13 @@ impl Truth {
             }
             Glance::Unclear => {
                 self.is_close = true;
-                if let Some((hit, crosses)) = exactly(corners, id, ray) {
-                    self.touched.push(hit);
-                    self.crossed.extend(crosses.then_some(hit));
+                match exactly(corners, id, ray) {
+                    Some((hit, _)) if hit.is_beyond() => self.reaches_beyond = true,
+                    Some((hit, crosses)) => {
+                        self.touched.push(hit);
+                        self.crossed.extend(crosses.then_some(hit));
+                    }
+                    None => {}
                 }
             }
         }
@@ -125,13 +136,23 @@ impl TrueHit {
         let is_ordered = t_min <= t_max;
         if !is_ordered {
             Place::Outside
-        } else if self.t.abs() > 1e308 || at(t_min) || at(t_max) {
+        } else if self.is_at_last() || at(t_min) || at(t_max) {
             Place::AtEnd
         } else if t_min <= self.t && self.t <= t_max {
             Place::Inside
         } else {
             Place::Outside
         }
+    }
+
+    /// Whether its t is so near to the end of f64 that kdray's may be beyond, and so no hit.
+    pub fn is_at_last(&self) -> bool {
+        self.is_at(f64::MAX.copysign(self.t))
+    }
+
+    /// Whether not even kdray's t is in f64.
+    fn is_beyond(&self) -> bool {
+        self.t.is_infinite()
     }
 
     fn tolerance(&self) -> f64 {
@@ -149,7 +170,7 @@ pub(super) fn can_hit(ray: &Ray) -> bool {
 /// The oracle's answer, and whether it is by [`HitRule::Crossing`] as well.
 fn exactly<T: Coordinate>(corners: &[[T; 3]; 3], id: u32, ray: &Ray) -> Option<(TrueHit, bool)> {
     let exact = exact_triangle_hit(corners, id, ray, HitRule::Touching)?;
-    let t = exact.t.to_f64().unwrap_or(f64::INFINITY);
+    let t = to_f64_or_beyond(&exact.t);
     // What is nearer to zero than the smallest f64 keeps its sign.
     let smallest = f64::from_bits(1);
     let t = match (t == 0.0, exact.t.is_positive(), exact.t.is_negative()) {
@@ -158,6 +179,19 @@ fn exactly<T: Coordinate>(corners: &[[T; 3]; 3], id: u32, ray: &Ray) -> Option<(
         _ => t,
     };
     Some((TrueHit { id, t, side: exact.side }, exact.crosses))
+}
+
+/// The nearest f64; infinite only if t is beyond f64 by more than kdray's may err.
+fn to_f64_or_beyond(t: &BigRational) -> f64 {
+    let quarter = (t / BigRational::from_integer(4.into())).to_f64().unwrap_or(f64::INFINITY);
+    let last = f64::MAX / 4.0;
+    if quarter.abs() > last * (1.0 + T_TOLERANCE) {
+        f64::INFINITY.copysign(quarter)
+    } else if quarter.abs() > last {
+        f64::MAX.copysign(quarter)
+    } else {
+        t.to_f64().unwrap_or(f64::MAX.copysign(quarter))
+    }
 }
 
 /// What f64 tells of a ray and a triangle.
@@ -182,12 +216,13 @@ struct View {
 impl View {
     fn of(ray: &Ray, scale: f64) -> Self {
         let (origin, direction) = (DVec3::from(ray.origin), DVec3::from(ray.direction));
-        if scale == 1.0 {
+        let largest = direction.abs().max_element();
+        if scale == 1.0 && ORDINARY.contains(&largest) {
             return Self { origin, direction, scale, t_scale: 1.0, is_exact: true };
         }
-        let largest = direction.abs().max_element();
         // From 2^-1022 on the inverse of a power of two is one.
-        let shrink = f64::from_bits(largest.to_bits() & (0x7ff << 52)).recip();
+        let power = f64::from_bits(largest.to_bits() & (0x7ff << 52)).max(f64::MIN_POSITIVE);
+        let shrink = power.recip();
         let seen = [origin * scale, direction * shrink];
         let is_exact = seen[0] / scale == origin && seen[1] / shrink == direction;
         let t_scale = shrink / scale;
@@ -297,6 +332,20 @@ mod tests {
             }
         }
         assert!(told > all / 2, "{told} of {all}");
+    }
+
+    #[test]
+    fn what_is_beyond_f64_is_no_hit() {
+        let flat = Flat::new(&mesh(boxes(1)));
+        // Two faces, at t = 2^halvings and twice that.
+        for (halvings, hits, reaches_beyond) in [(1022, 2, false), (1023, 1, true), (1024, 0, true)]
+        {
+            let tiny = f64::from_bits(1 << (1074 - halvings));
+            let ray = Ray::new([0.25, 0.5, -1.0], [0.0, 0.0, tiny]);
+            let truth = Truth::of(&flat, &ray);
+            let found = (truth.crossed.len(), truth.reaches_beyond);
+            assert_eq!(found, (hits, reaches_beyond), "{ray:?}");
+        }
     }
 
     #[test]

@@ -60,7 +60,11 @@ impl<'a, T: Precision> Judge<'a, T> {
     ) {
         let (least, most) = truth.count(ray.interval);
         let in_range = (least..=most).contains(&walked.count);
-        let is_endless = self.is_closed && ray.interval == Interval::FORWARD && can_hit(ray);
+        let is_endless = self.is_closed
+            && ray.interval == Interval::FORWARD
+            && can_hit(ray)
+            && !truth.reaches_beyond
+            && !truth.crossed.iter().any(TrueHit::is_at_last);
         let parity = match is_endless {
             true if from_inside => Some(1),
             true if !self.extent.contains(ray.origin) => Some(0),
@@ -90,8 +94,8 @@ impl<'a, T: Precision> Judge<'a, T> {
         };
         let touched = exact(&truth.touched, HitRule::Touching);
         let crossed = exact(&truth.crossed, HitRule::Crossing);
-        // A t beyond all f64 is no hit, which the oracle does not know.
-        if truth.touched.iter().any(|hit| hit.t.abs() > 1e308) {
+        // The oracle does not know that a hit beyond f64 is none.
+        if truth.touched.iter().any(TrueHit::is_at_last) {
             return;
         }
         let agreed = agrees_on_closest(&touched, walked.closest.as_ref(), ray)

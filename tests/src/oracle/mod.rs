@@ -9,6 +9,7 @@ mod compare;
 mod integers;
 mod point;
 mod segment;
+mod solid_angle;
 mod triangle;
 
 pub use compare::{agrees_on_all, agrees_on_closest};
@@ -16,6 +17,7 @@ pub use point::{
     exact_distance_squared, exactly_contains, is_between, is_distance, is_exactly_visible,
 };
 pub use segment::exact_segment_hit;
+pub use solid_angle::exact_half_angle;
 pub use triangle::exact_triangle_hit;
 
 use integers::{Vector, integers, ratio, sign};
@@ -109,7 +111,24 @@ fn surely_missed<const K: usize>(points: &[[f64; K]], ray: &Ray<K>) -> bool {
     // Divided first, so that a square does not vanish where its quotient would not.
     let along = along / length_squared.sqrt();
     let off_squared = squared(to_center) - along * along;
+    let largest = ranges.iter().flat_map(|(low, high)| [low.abs(), high.abs()]).fold(0.0, f64::max);
+    // Of points so near to each other for where they are, rounding moves the centre.
+    let has_center = radius_squared.is_normal() && radius_squared > 1e-20 * largest * largest;
     length_squared.is_normal()
+        && has_center
         && off_squared > 1.01 * radius_squared + 1e-9 * squared(to_center)
-        && radius_squared.is_normal()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn triangles_of_one_unit_are_not_passed_by() {
+        let (one, next) = (1.0_f64, 1.0_f64.next_up());
+        let corners = [[one, one, 0.0], [next, one, 0.0], [one, next, 0.0]];
+        let ray = Ray::new([next, one, -f64::EPSILON], [0.0, 0.0, 1.0]);
+        let hit = exact_triangle_hit(&corners, 0, &ray, HitRule::Touching).expect("at a corner");
+        assert_eq!((hit.t.to_f64(), hit.u), (Some(f64::EPSILON), 1.0));
+    }
 }
