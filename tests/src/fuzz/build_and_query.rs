@@ -1,7 +1,12 @@
-//! Small meshes through any build options, and rays at them: every kernel against testing every triangle.
+//! Small meshes through any build options, and rays at them: every kernel against testing every triangle, and that
+//! against the truth.
 
 use super::draw::Draw;
 use crate::OwnedPacket;
+use crate::attack::answers::{Answers, Walked};
+use crate::attack::verdict::Judge;
+use crate::attack::{Extent, Volley};
+use crate::flat::Flat;
 use kdray::geometry::Common;
 use kdray::layout::Hint;
 use kdray::primitives::{HitArrays, HitRule};
@@ -67,6 +72,7 @@ fn ask<T: Precision>(scene: &Scene<T>, draw: &mut Draw<'_>) {
         rays.push(ray);
     }
     let expected: Vec<_> = rays.iter().map(|ray| expected(&scene, ray)).collect();
+    judge(scene.mesh(), &rays, &expected);
     rays.iter().zip(&expected).for_each(|(ray, expected)| check_alone(&scene, ray, expected));
     check_together(&scene, &rays, &expected);
     if with_packet {
@@ -93,6 +99,34 @@ fn expected<T: Precision>(scene: &Scene<T>, ray: &Ray) -> Expected {
     }
     assert_eq!(closest, touched.first().copied(), "{ray:?}");
     Expected { closest, crossed, touched }
+}
+
+/// What testing every triangle gives is judged by what kdray has no part in, or nothing would say that its test is
+/// right.
+///
+/// # Panics
+/// If a hit is lost, or is none, or a number is wrong.
+fn judge<T: Precision>(mesh: &TriangleMesh<T>, rays: &[Ray], expected: &[Expected]) {
+    let flat = Flat::new(mesh);
+    // All hits are known, so that their parity tells no more; and next to the last f64 one of two may be beyond it.
+    let judge = Judge { flat: &flat, extent: Extent::of(mesh), is_closed: false };
+    let said = expected.iter().map(Expected::said).collect();
+    let answers = Answers { rays: said, others: Vec::new(), by_packets: 0 };
+    let tally = judge.tally(&Volley::of_rays(rays.to_vec()), &answers);
+    assert_eq!(tally.errors(), 0, "{tally:?}");
+}
+
+impl Expected {
+    /// The same, as the judge takes it.
+    fn said(&self) -> Walked {
+        Walked {
+            closest: self.closest,
+            any: self.closest.is_some(),
+            crossed: self.crossed.clone(),
+            touched: self.touched.clone(),
+            count: self.crossed.len(),
+        }
+    }
 }
 
 /// One ray by every query.
@@ -177,5 +211,48 @@ fn check_packets<T: Precision>(scene: &Scene<T>, rays: &[Ray], draw: &mut Draw<'
         let alone = scene.shapes().closest_hit(&ray);
         assert_eq!(hits.get(index), alone, "packet, {ray:?}");
         assert_eq!(is_hit, alone.is_some(), "packet, {ray:?}");
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::meshes::torus;
+    use crate::rays::Archer;
+    use kdray::BuildOptions;
+
+    /// Rays that hit a torus, the first few in all ways, judged once their hits are spoilt.
+    fn judged(spoil: impl Fn(&mut Expected)) {
+        let scene = Scene::build(torus(7, 5), &BuildOptions::default()).unwrap();
+        let mut rays = Archer::new(scene.mesh(), 3).all_kinds(4, 10.0);
+        rays.retain(|ray| scene.count(ray) > 1);
+        let mut said: Vec<_> = rays.iter().map(|ray| expected(&scene, ray)).collect();
+        said.iter_mut().take(1).for_each(spoil);
+        judge(scene.mesh(), &rays, &said);
+    }
+
+    #[test]
+    fn right_hits_are_found_right() {
+        judged(|_| {});
+    }
+
+    #[test]
+    #[should_panic(expected = "is lost")]
+    fn a_hit_that_no_test_finds_is_found() {
+        judged(|said| {
+            said.crossed.pop();
+        });
+    }
+
+    #[test]
+    #[should_panic(expected = "should be")]
+    fn a_t_that_every_test_has_wrong_is_found() {
+        judged(|said| said.touched.iter_mut().for_each(|hit| hit.t *= 1.0 + 1e-9));
+    }
+
+    #[test]
+    #[should_panic(expected = "is none")]
+    fn a_hit_that_is_none_is_found() {
+        judged(|said| said.closest.iter_mut().for_each(|hit| hit.primitive_id = 70));
     }
 }
