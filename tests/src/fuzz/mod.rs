@@ -6,6 +6,7 @@
 
 pub mod build_and_query;
 pub mod draw;
+mod exact_points;
 pub mod instances;
 pub mod loaders;
 pub mod points;

@@ -1,12 +1,15 @@
-//! Points and small meshes: the queries about points against testing every triangle.
+//! Points and small meshes: the queries about points against testing every triangle, and against the oracle.
 
 use super::build_and_query::built;
 use super::draw::Draw;
-use super::instructions;
+use super::{exact_points, instructions};
 use crate::points::{corners, naive_closest_point};
 use kdray::exact::{is_on_triangle, segment_crosses};
 use kdray::primitives::HitRule;
 use kdray::{Closure, InstructionSet, Precision, Ray, Scene, Side};
+
+/// How many points of an input are put to the oracle: numbers from all of f64 are long ones.
+const JUDGED: usize = 2;
 
 /// Runs an input.
 pub fn run(data: &[u8]) {
@@ -20,8 +23,11 @@ fn ask<T: Precision>(draw: &mut Draw<'_>, set: InstructionSet) {
     let Some(scene) = built(mesh, draw) else { return };
     let scene = scene.with_instructions(set);
     let mut last = [0.0; 3];
-    for _ in 0..8 {
+    for index in 0..8 {
         let point = draw.aim(scene.mesh());
+        if index < JUDGED {
+            exact_points::check(&scene, last, point);
+        }
         check_nearest(&scene, point);
         check_inside(&scene, point);
         check_visible(&scene, last, point);
