@@ -2,11 +2,12 @@
 
 use super::draw::Draw;
 use super::instructions;
+use crate::OwnedPacket;
 use kdray::file::{HEADER_BYTES, file_bytes};
-use kdray::geometry::RayPacket;
+use kdray::geometry::Common;
 use kdray::memory::{AlignedBytes, SharedBytes};
 use kdray::primitives::{HitArrays, HitRule};
-use kdray::{Arithmetic, Hit, InstructionSet, Precision, Ray, Scene, Side};
+use kdray::{Arithmetic, Hint, Hit, InstructionSet, Precision, Ray, Scene, Side};
 use std::sync::Arc;
 use twox_hash::XxHash3_64;
 
@@ -62,17 +63,20 @@ fn open_and_ask<T: Precision>(file: &[u8], rest: &[u8], set: InstructionSet) {
     assert_eq!(opened.verify().err(), loaded.as_ref().err().copied());
     let opened = opened.with_instructions(set);
     let mut draw = Draw::new(rest);
+    let mut rays = Vec::new();
     for _ in 0..8 {
         let ray = draw.ray(opened.mesh());
         ask(&opened, &ray);
-        if let Ok(loaded) = &loaded {
-            check(loaded, &ray);
-        }
+        rays.push(ray);
         if !draw.has_more() {
             break;
         }
     }
-    ask_packet(&opened);
+    ask_batches(&opened, &rays);
+    if let Ok(loaded) = &loaded {
+        check(loaded, &rays);
+    }
+    ask_packets(&opened);
 }
 
 /// Asks for everything; whatever the answer is, it names triangles that are there.
@@ -92,11 +96,37 @@ fn ask<T: Precision>(scene: &Scene<T>, ray: &Ray) {
     let mut all = Vec::new();
     scene.all_hits_into(ray, &mut all);
     all.into_iter().for_each(|hit| assert_known(scene, Some(hit)));
+    let _ = (scene.count(ray), scene.shapes().count(ray));
     if let Some((hit, hint)) = scene.closest_hit_with_hint(ray) {
         let _ = scene.any_hit_near(ray, hint);
         let _ = scene.thickness(hit.primitive_id, hit.u, hit.v, Side::Front);
     }
     ask_about_points(scene, ray);
+}
+
+/// Several rays at once, with hints of each other, and points at once.
+fn ask_batches<T: Precision>(scene: &Scene<T>, rays: &[Ray]) {
+    let many = together(rays, 9);
+    let mut found = vec![false; many.len()];
+    let hint = |ray: &Ray| scene.closest_hit_with_hint(ray).map_or(Hint::NONE, |(_, hint)| hint);
+    let mut hints: Vec<_> = many.iter().map(hint).collect();
+    hints.rotate_left(1);
+    let float = scene.clone().with_arithmetic(Arithmetic::Float);
+    for scene in [scene, &float] {
+        scene.any_hits(&many, &mut found);
+        scene.any_hits_near(&many, &hints, &mut found);
+        scene.counts(&many, &mut vec![0; many.len()]);
+        scene.each_all_hits(&many, |_, hits| {
+            hits.iter().for_each(|hit| assert_known(scene, Some(*hit)));
+        });
+    }
+    let points: Vec<_> = together(rays, 64).iter().map(|ray| ray.origin).collect();
+    scene.contains_each(&points, &mut vec![false; points.len()]);
+}
+
+/// The same rays, again and again until there are so many: few are not taken together.
+fn together(rays: &[Ray], least: usize) -> Vec<Ray> {
+    rays.iter().copied().cycle().take(rays.len().max(least)).collect()
 }
 
 fn ask_about_points<T: Precision>(scene: &Scene<T>, ray: &Ray) {
@@ -108,19 +138,26 @@ fn ask_about_points<T: Precision>(scene: &Scene<T>, ray: &Ray) {
     let _ = scene.visible(ray.origin, end);
 }
 
-fn ask_packet<T: Precision>(scene: &Scene<T>) {
+/// Packets of each kind, at the root's box: from before it, along a direction, and towards its middle.
+fn ask_packets<T: Precision>(scene: &Scene<T>) {
     let bounds = scene.tree().bounds();
     let at = |axis: usize, share: f64| {
         let [min, max] = [bounds.min[axis], bounds.max[axis]].map(f64::from);
         min + share * (max - min)
     };
-    let row = |axis: usize| -> Vec<f64> {
-        let share = |i: usize| if axis == 0 { (i % 8) as f64 / 8.0 } else { i as f64 / 64.0 };
-        (0..64).map(|i| at(axis, share(i))).collect()
-    };
-    let [x, y, z] = [row(0), row(1), vec![at(2, -1.0); 64]];
-    let packet = RayPacket::along([0.01, 0.0, 1.0], [&x, &y, &z]);
-    let (mut hits, mut found) = (HitArrays::default(), [false; 64]);
+    let point = |i: usize| [at(0, (i % 8) as f64 / 8.0), at(1, i as f64 / 64.0), at(2, -1.0)];
+    let before: Vec<_> = (0..64).map(point).collect();
+    let ways: Vec<_> =
+        (0..64).map(|i| [(i % 8) as f64 - 3.5, (i / 8) as f64 - 3.5, 16.0]).collect();
+    let middle = [0, 1, 2].map(|axis| at(axis, 0.5));
+    ask_packet(scene, &OwnedPacket::new(Common::Origin(before[28]), &ways));
+    ask_packet(scene, &OwnedPacket::new(Common::Direction([0.01, 0.0, 1.0]), &before));
+    ask_packet(scene, &OwnedPacket::new(Common::Target(middle), &before));
+}
+
+fn ask_packet<T: Precision>(scene: &Scene<T>, owned: &OwnedPacket) {
+    let packet = owned.packet();
+    let (mut hits, mut found) = (HitArrays::default(), vec![false; packet.len()]);
     scene.packet_closest_hits(&packet, &mut hits);
     scene.packet_any_hits(&packet, &mut found);
     (0..packet.len()).for_each(|index| assert_known(scene, hits.get(index)));
@@ -133,13 +170,27 @@ fn assert_known<T: Precision>(scene: &Scene<T>, hit: Option<Hit>) {
 }
 
 /// What was verified gives the hits of its mesh.
-fn check<T: Precision>(scene: &Scene<T>, ray: &Ray) {
+fn check<T: Precision>(scene: &Scene<T>, rays: &[Ray]) {
     let naive = scene.shapes().naive();
-    assert_eq!(scene.shapes().closest_hit(ray), naive.closest_hit(ray), "leaf walk, {ray:?}");
-    assert_eq!(scene.closest_hit(ray), naive.closest_hit(ray), "{ray:?}");
-    assert_eq!(scene.any_hit(ray), naive.any_hit(ray), "{ray:?}");
-    let crossed = naive.all_hits(ray, HitRule::Crossing);
-    let mut all = Vec::new();
-    scene.all_hits_into(ray, &mut all);
-    assert_eq!(all, crossed, "{ray:?}");
+    for ray in rays {
+        assert_eq!(scene.shapes().closest_hit(ray), naive.closest_hit(ray), "leaf walk, {ray:?}");
+        assert_eq!(scene.closest_hit(ray), naive.closest_hit(ray), "{ray:?}");
+        assert_eq!(scene.any_hit(ray), naive.any_hit(ray), "{ray:?}");
+        let crossed = naive.all_hits(ray, HitRule::Crossing);
+        let mut all = Vec::new();
+        scene.all_hits_into(ray, &mut all);
+        assert_eq!(all, crossed, "{ray:?}");
+        assert_eq!(scene.count(ray), crossed.len(), "{ray:?}");
+    }
+    let many = together(rays, 9);
+    let (mut hits, mut found) = (vec![None; many.len()], vec![false; many.len()]);
+    scene.closest_hits(&many, &mut hits);
+    scene.any_hits(&many, &mut found);
+    for (ray, (hit, found)) in many.iter().zip(hits.into_iter().zip(found)) {
+        let expected = naive.closest_hit(ray);
+        assert_eq!((hit, found), (expected, expected.is_some()), "{ray:?}");
+    }
+    scene.each_all_hits(&many, |place, hits| {
+        assert_eq!(hits, naive.all_hits(&many[place], HitRule::Crossing), "{:?}", many[place]);
+    });
 }
