@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use kdray_tests::fuzz::TARGETS;
+use kdray_tests::fuzz::tree_file::wide_nodes;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -28,6 +29,17 @@ fn corpora_do_no_harm() {
             assert!(outcome.is_ok(), "{} fails at {}", target.name, file.display());
         }
     }
+}
+
+/// A whole file in f64 is kept, and one whose wide tree has more than one node: links between nodes, and homes that are
+/// not the root's, are in no other. Should `--keep` leave none, there are seeds of both kinds.
+#[test]
+fn whole_files_of_f64_and_of_inner_nodes_are_kept() {
+    let files: Vec<_> = corpus("tree_file").iter().map(|file| fs::read(file).unwrap()).collect();
+    let single = files.iter().filter_map(|file| wide_nodes::<f32>(file)).max();
+    let double = files.iter().filter_map(|file| wide_nodes::<f64>(file)).max();
+    assert!(double.is_some(), "none is in f64");
+    assert!(single.max(double) >= Some(2), "{single:?} and {double:?} nodes");
 }
 
 /// How many bytes are tried, as the target's options say.

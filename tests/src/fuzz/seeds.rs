@@ -6,7 +6,7 @@ use crate::meshes;
 use crate::rays::random;
 use flate2::Compression;
 use flate2::write::GzEncoder;
-use kdray::{BuildOptions, Precision, Scene, Strategy, TriangleMesh};
+use kdray::{BuildOptions, Coordinate, CostModel, Precision, Scene, Strategy, TriangleMesh};
 use rand::RngExt;
 use std::convert::Infallible;
 use std::io::Write;
@@ -253,7 +253,22 @@ pub fn tree_file() -> Vec<Vec<u8>> {
     let scenes = meshes.iter().flat_map(|soup| options.map(|it| (meshes::mesh(soup.clone()), it)));
     let mut files: Vec<_> = scenes.map(|(mesh, options)| saved(mesh, &options)).collect();
     files.push(saved(meshes::mesh_in_f64(&meshes::mesh(meshes::grid(2, 1))), &options[0]));
+    files.push(saved(strip::<f32>(), &small_leaves()));
+    files.push(saved(strip::<f64>(), &small_leaves()));
     files
+}
+
+/// Six triangles that share vertices, at thirds: in f64 they are no f32.
+fn strip<T: Coordinate>() -> TriangleMesh<T> {
+    let vertex = |i: u32| [i, i % 2, i * i % 5].map(|x| T::from_f64(f64::from(x) / 3.0));
+    let triangles = (0..6).map(|i| [i, i + 1, i + 2]).collect();
+    TriangleMesh::new((0..8).map(vertex).collect(), triangles).expect("a small mesh")
+}
+
+/// Such that the strip's wide tree has a second node: its leaves are more than one has room for.
+fn small_leaves() -> BuildOptions {
+    let middle = BuildOptions::for_strategy(Strategy::Middle);
+    BuildOptions { cost: CostModel::BLOCKS_OF_8, leaf_size: 3, max_depth: Some(5), ..middle }
 }
 
 fn saved<T: Precision>(mesh: TriangleMesh<T>, options: &BuildOptions) -> Vec<u8> {

@@ -43,6 +43,21 @@ pub fn seal(file: &mut [u8]) {
     file[HEADER_BYTES - 8..HEADER_BYTES].copy_from_slice(&header.to_le_bytes());
 }
 
+/// How many nodes the wide tree has in an input that begins with a whole file of that precision, which is loaded once
+/// its checksums are right; `None` if it does not.
+pub fn wide_nodes<T: Precision>(input: &[u8]) -> Option<u64> {
+    // Where the header says how many homes there are: there is one of each node.
+    const HOMES: usize = 24 + 5 * 8;
+    let mut sealed = input.to_vec();
+    seal(&mut sealed);
+    let length = usize::try_from(file_bytes(&sealed).ok()?).ok()?;
+    let file = sealed.get_mut(..length)?;
+    seal(file);
+    Scene::<T>::load(shared(file)).ok()?;
+    let count = file.get(HOMES..)?.first_chunk()?;
+    Some(u64::from_le_bytes(*count))
+}
+
 fn shared(file: &[u8]) -> SharedBytes {
     Arc::new(AlignedBytes::from(file))
 }
