@@ -55,8 +55,7 @@ fn remove(folder: &Path) -> io::Result<()> {
     if folder.exists() { fs::remove_dir_all(folder) } else { Ok(()) }
 }
 
-/// Leaves inputs out until few enough are left: one in so many of all sizes, then the largest. Their bytes are
-/// counted.
+/// Leaves inputs out until few enough are left: one in so many of all sizes. Their bytes are counted.
 fn cut(folder: &Path) -> io::Result<u64> {
     let mut files = Vec::new();
     for entry in fs::read_dir(folder)? {
@@ -64,17 +63,48 @@ fn cut(folder: &Path) -> io::Result<u64> {
         files.push((entry.metadata()?.len(), entry.path()));
     }
     files.sort();
-    let count = files.len();
-    let most = count.min(MOST_INPUTS);
-    // `most` of them, evenly.
-    let is_chosen = |i: usize| i * most / count != (i + 1) * most / count;
-    let mut sum = 0;
-    for (index, (bytes, path)) in files.into_iter().enumerate() {
-        if is_chosen(index) && sum + bytes <= MOST_BYTES {
-            sum += bytes;
-        } else {
+    let sizes: Vec<_> = files.iter().map(|(bytes, _)| *bytes).collect();
+    let chosen = chosen(&sizes);
+    for (index, (_, path)) in files.iter().enumerate() {
+        if chosen.binary_search(&index).is_err() {
             fs::remove_file(path)?;
         }
     }
-    Ok(sum)
+    Ok(chosen.iter().map(|&index| sizes[index]).sum())
+}
+
+/// Which inputs of rising sizes are kept: the most that there is room for if they are taken evenly, so that large ones
+/// are not left out for being large. The largest is among them.
+fn chosen(sizes: &[u64]) -> Vec<usize> {
+    let count = sizes.len();
+    let evenly = |most: usize| (0..most).map(move |i| (i + 1) * count / most - 1);
+    let fits = |&most: &usize| evenly(most).map(|index| sizes[index]).sum::<u64>() <= MOST_BYTES;
+    let most = (1..=count.min(MOST_INPUTS)).rev().find(fits);
+    most.map_or_else(Vec::new, |most| evenly(most).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn few_small_inputs_are_all_kept() {
+        assert_eq!(chosen(&[]), [0; 0]);
+        assert_eq!(chosen(&[1, 2, 3]), [0, 1, 2]);
+        assert_eq!(chosen(&[1; 200]).len(), MOST_INPUTS);
+    }
+
+    #[test]
+    fn of_too_many_bytes_all_sizes_are_kept() {
+        let sizes: Vec<u64> = (1..=100).map(|i| 80 * i).collect();
+        let chosen = chosen(&sizes);
+        let bytes: u64 = chosen.iter().map(|&index| sizes[index]).sum();
+        assert!(bytes <= MOST_BYTES && chosen.len() > 7, "{bytes} bytes of {chosen:?}");
+        assert!(chosen.is_sorted() && chosen[0] < 20 && chosen.last() == Some(&99), "{chosen:?}");
+    }
+
+    #[test]
+    fn what_is_too_large_alone_is_not_kept() {
+        assert_eq!(chosen(&[MOST_BYTES + 1]), [0; 0]);
+    }
 }
