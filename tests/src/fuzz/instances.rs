@@ -2,7 +2,7 @@
 
 use super::build_and_query::built;
 use super::draw::Draw;
-use super::instructions;
+use super::{instructions, refusals};
 use glam::{DAffine3, DVec3};
 use kdray::{Instance, InstanceHit, InstancedScene, InstructionSet, Precision, Ray, Scene};
 
@@ -25,7 +25,10 @@ fn ask<T: Precision>(draw: &mut Draw<'_>, set: InstructionSet) {
     }
     let instances: Vec<_> = (0..draw.below(12)).map(|_| instance(draw)).collect();
     // A matrix may be refused, and a geometry may not be there.
-    let Ok(scene) = InstancedScene::build(geometries, instances) else { return };
+    let scene = match InstancedScene::build(geometries.clone(), instances.clone()) {
+        Ok(scene) => scene,
+        Err(error) => return refusals::check(&geometries, &instances, &error),
+    };
     let mask = if draw.bit() { draw.byte().into() } else { u32::MAX };
     let scene = scene.with_mask(mask);
     for _ in 0..16 {

@@ -10,6 +10,7 @@ mod exact_points;
 pub mod instances;
 pub mod loaders;
 pub mod points;
+mod refusals;
 pub mod seeds;
 pub mod tree_file;
 
