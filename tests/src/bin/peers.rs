@@ -40,8 +40,8 @@ fn tell(cases: Vec<Case>, folder: &Path) -> io::Result<ExitCode> {
         own.map(|answers| judge(&it.truths, answers, None))
     });
     let is_right = |it: Wrong| {
-        let lists = [it.miscounted, it.disordered].into_iter().flatten().sum::<u64>();
-        it.lost + it.phantom + lists == 0
+        let others = [it.behind, it.miscounted, it.disordered].into_iter().flatten().sum::<u64>();
+        it.lost + it.phantom + others == 0
     };
     let mut of_kdray = of_kdray.peekable();
     let is_right = of_kdray.peek().is_some() && of_kdray.all(is_right);

@@ -108,6 +108,11 @@ fn numbers<T: Deserialize>(folder: &Path, name: &str) -> io::Result<Option<Vec<T
 }
 
 impl Answers {
+    /// Whether it is said where closest hits are: who says only whether there are any gives each a t of zero.
+    pub fn say_where(&self) -> bool {
+        self.closest.iter().flatten().any(|&t| t.is_finite() && t != 0.0)
+    }
+
     fn fits(&self, rays: usize) -> bool {
         let closest = self.closest.as_ref().is_none_or(|it| it.len() == rays);
         let any = self.any.as_ref().is_none_or(|it| it.len() == rays);

@@ -13,14 +13,19 @@ use crate::flat::Flat;
 use kdray::{Interval, Ray, TriangleMesh};
 use rayon::prelude::*;
 
+/// The t of peers is an f32 and may be off by this part.
+const T_ERROR: f64 = 1e-3;
+
 /// What is true of a ray.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Known {
     aim: Aim,
     /// Whether it crosses the surface, in whichever of four ways it is moved.
     crosses: bool,
     /// Whether it touches the surface at all.
     touches: bool,
+    /// The t of the farthest of its first crossings, in whichever way it is moved; infinite if it may cross nothing.
+    first: f64,
     /// Whether it begins in the inside.
     from_inside: bool,
 }
@@ -32,6 +37,8 @@ pub struct Wrong {
     pub rays: u64,
     /// Closest and any hits of rays that cross the surface, and are said to hit nothing.
     pub lost: u64,
+    /// Closest hits that lie behind the surface, if there are any t.
+    pub behind: Option<u64>,
     /// The same of rays that do not touch the surface, and are said to hit it.
     pub phantom: u64,
     /// Lists of hits whose number has the wrong parity, if there are lists.
@@ -49,15 +56,19 @@ pub fn truths(case: &Case) -> Vec<Known> {
             let ray = mirrored_ray(&shot.ray, mirrors[turn]);
             let truth = Truth::of(&flats[turn], &ray);
             // At t = 0 there is none: rays begin off the surface.
-            (truth.count(Interval::FORWARD).0 > 0, truth)
+            let ahead = truth.crossed.iter().map(|hit| hit.t).filter(|&t| t > 0.0);
+            (ahead.fold(f64::INFINITY, f64::min), truth)
         };
         let (first, truth) = crosses(0);
         let is_touch = |t: f64| Interval::FORWARD.contains(t);
+        // Moved rays differ from each other only where the line meets an edge.
+        let turns = if truth.is_close { 1..4 } else { 0..0 };
+        let first = turns.map(|turn| crosses(turn).0).fold(first, f64::max);
         Known {
             aim: shot.aim,
-            // Moved rays differ from each other only where the line meets an edge.
-            crosses: first && (!truth.is_close || (1..4).all(|turn| crosses(turn).0)),
+            crosses: first.is_finite(),
             touches: truth.touched.iter().any(|hit| is_touch(hit.t)),
+            first,
             from_inside: shot.from_inside,
         }
     };
@@ -82,13 +93,19 @@ fn mirrored_ray(ray: &Ray, mirror: [f64; 3]) -> Ray {
 pub fn judge(truths: &[Known], answers: &Answers, aim: Option<Aim>) -> Wrong {
     let lists = answers.all.as_ref();
     let zero = || lists.map(|_| 0);
-    let mut wrong = Wrong { miscounted: zero(), disordered: zero(), ..Wrong::default() };
+    let behind = answers.say_where().then_some(0);
+    let mut wrong = Wrong { behind, miscounted: zero(), disordered: zero(), ..Wrong::default() };
     for (index, known) in truths.iter().enumerate() {
         if aim.is_some_and(|aim| aim != known.aim) {
             continue;
         }
         wrong.rays += 1;
-        let closest = answers.closest.as_ref().map(|t| t[index].is_finite());
+        let t = answers.closest.as_ref().map(|t| t[index]);
+        let closest = t.map(f32::is_finite);
+        let is_behind = t.is_some_and(|t| {
+            t.is_finite() && known.crosses && f64::from(t) > known.first * (1.0 + T_ERROR)
+        });
+        wrong.behind = wrong.behind.map(|n| n + u64::from(is_behind));
         let any = answers.any.as_ref().map(|any| any[index] != 0);
         for is_hit in [closest, any].into_iter().flatten() {
             wrong.lost += u64::from(known.crosses && !is_hit);
@@ -111,6 +128,7 @@ impl Wrong {
         Self {
             rays: self.rays + other.rays,
             lost: self.lost + other.lost,
+            behind: sum(self.behind, other.behind),
             phantom: self.phantom + other.phantom,
             miscounted: sum(self.miscounted, other.miscounted),
             disordered: sum(self.disordered, other.disordered),
@@ -124,7 +142,8 @@ mod tests {
     use super::*;
 
     fn known(crosses: bool, touches: bool, from_inside: bool) -> Known {
-        Known { aim: Aim::Vertex, crosses, touches, from_inside }
+        let first = if crosses { 1.0 } else { f64::INFINITY };
+        Known { aim: Aim::Vertex, crosses, touches, first, from_inside }
     }
 
     #[test]
@@ -140,13 +159,20 @@ mod tests {
         let (none, hit) = (f32::INFINITY, 1.0);
         let right = said([hit, none, none], [0, 2, 4, 4], vec![1.0, 2.0, 3.0, 3.0]);
         let (miscounted, disordered) = (Some(0), Some(0));
-        let expected = Wrong { rays: 3, miscounted, disordered, ..Wrong::default() };
+        let behind = Some(0);
+        let expected = Wrong { rays: 3, behind, miscounted, disordered, ..Wrong::default() };
         assert_eq!(judge(&truths, &right, None), expected);
         let wrong = said([none, hit, hit], [0, 1, 3, 3], vec![1.0, 3.0, 2.0]);
         let found = judge(&truths, &wrong, Some(Aim::Vertex));
-        assert_eq!((found.lost, found.phantom), (1, 1));
+        assert_eq!((found.lost, found.phantom, found.behind), (1, 1, Some(0)));
         assert_eq!((found.miscounted, found.disordered), (Some(1), Some(1)));
         assert_eq!(judge(&truths, &wrong, Some(Aim::Anything)).rays, 0);
+        // The first of two surfaces is passed by.
+        let through = said([2.0, hit, none], [0, 2, 4, 4], vec![1.0, 2.0, 3.0, 3.0]);
+        assert_eq!(judge(&truths, &through, None), Wrong { behind: Some(1), ..expected });
+        // Who says only whether there is a hit writes zero for each.
+        let without_t = said([0.0, none, none], [0, 2, 4, 4], vec![1.0, 2.0, 3.0, 3.0]);
+        assert_eq!(judge(&truths, &without_t, None), Wrong { behind: None, ..expected });
     }
 
     #[test]

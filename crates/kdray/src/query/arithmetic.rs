@@ -9,7 +9,7 @@ pub enum Arithmetic {
     Exact,
     /// Plain floating point in f32, as in other libraries: somewhat faster, but rays may slip
     /// through edges and vertices, and t, u and v are good to some five digits, the last of which depend on the
-    /// [`InstructionSet`](crate::InstructionSet). Scenes of f64 vertices
+    /// [`InstructionSet`](crate::InstructionSet); to fewer where coordinates are much larger than triangles. Scenes of f64 vertices
     /// are exact by this, too, and so are those rays of a packet that it answers as one.
     Float,
 }
