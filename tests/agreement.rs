@@ -19,13 +19,16 @@ const SCENES: [&str; 7] = [
     "awkward_utm_offset",
 ];
 
-fn small_scenes() -> impl Iterator<Item = (SceneInfo, TriangleMesh)> {
-    let small = |info: &SceneInfo| SCENES.contains(&info.name.as_str());
+/// The scenes of [`SCENES`], all of them if there are any.
+fn small_scenes() -> Vec<(SceneInfo, TriangleMesh)> {
+    let Some(mut small) = scenes() else { return Vec::new() };
+    small.retain(|info| SCENES.contains(&info.name.as_str()));
+    assert_eq!(small.len(), SCENES.len(), "scenes have other names");
     let loaded = |info| {
-        let mesh = load_mesh(&info).expect("the scene loads");
+        let mesh = load_mesh(&info).unwrap_or_else(|error| panic!("{error}"));
         (info, mesh)
     };
-    scenes().into_iter().flatten().filter(small).map(loaded)
+    small.into_iter().map(loaded).collect()
 }
 
 #[test]
