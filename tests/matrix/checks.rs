@@ -2,7 +2,6 @@
 
 use crate::cases::{Aimed, Case};
 use kdray::geometry::BoundingSphere;
-use kdray::simd::UnknownInstructionSet;
 use kdray::traverse::Naive;
 use kdray::{
     BuildOptions, CostModel, Hint, Hit, InstructionSet, KdTree, Precision, Ray, Scene, ShapeScene,
@@ -11,7 +10,7 @@ use kdray::{
 use kdray_tests::bits::Bits;
 use kdray_tests::oracle::{agrees_on_all, agrees_on_closest};
 use kdray_tests::rays::{Archer, random};
-use kdray_tests::{Subject, meshes};
+use kdray_tests::{Subject, meshes, sets};
 use rand::{Rng, RngExt};
 use rayon::prelude::*;
 use std::sync::LazyLock;
@@ -46,8 +45,9 @@ pub(crate) fn on_each_mesh<T: Precision>(
     instructions: &str,
     check: impl Fn(&Scene<T>, &[&Aimed<3>]) -> Result<(), String> + Sync,
 ) {
+    let Some(set) = sets::named(instructions) else { return };
     for case in cases {
-        let Some(scene) = scene_with(options, case, instructions) else { return };
+        let scene = scene_with(options, case, set);
         let in_planes = in_split_planes(case, scene.tree());
         let step = if options.leaf_size == usize::MAX { ONE_LEAF } else { 1 };
         let aimed: Vec<_> = case.aimed.iter().step_by(step).chain(&in_planes).collect();
@@ -59,28 +59,15 @@ pub(crate) fn on_each_mesh<T: Precision>(
     }
 }
 
-/// The scene of a case, to be searched by the kernels of an instruction set; none if this processor
-/// does not have it.
+/// The scene of a case, to be searched by the kernels of an instruction set.
 pub(crate) fn scene_with<T: Precision>(
     options: &BuildOptions,
     case: &Case<TriangleMesh<T>, 3>,
-    instructions: &str,
-) -> Option<Scene<T>> {
-    let instructions = match InstructionSet::of_name(instructions) {
-        Ok(instructions) => instructions,
-        Err(unknown) => {
-            not_run(&unknown);
-            return None;
-        }
-    };
+    instructions: InstructionSet,
+) -> Scene<T> {
     let options = BuildOptions { cost: CostModel { block: 8, ..options.cost }, ..*options };
     let scene = Scene::build(case.subject.clone(), &options).expect("cases are valid");
-    Some(scene.with_instructions(instructions))
-}
-
-#[expect(clippy::print_stderr, reason = "whoever reads the log should know")]
-fn not_run(unknown: &UnknownInstructionSet) {
-    eprintln!("not run: {unknown}");
+    scene.with_instructions(instructions)
 }
 
 /// Checks the answers to the rays of a case, and to rays in the split planes of its tree.

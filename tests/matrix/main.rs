@@ -15,7 +15,7 @@ use checks::{all_hits, all_touched, any_hit, closest_hit, count};
 use checks::{kernel_all_hits, kernel_any_hit, kernel_any_hit_near, kernel_closest_hit};
 use kdray::build::SahBuilder;
 use kdray::traverse::PacketKind;
-use kdray::{BuildOptions, Preset, Strategy};
+use kdray::{BuildOptions, InstructionSet, Preset, Strategy};
 
 macro_rules! queries {
     ($kind:ident, $cases:expr, $($query:ident)*) => {
@@ -95,6 +95,37 @@ macro_rules! kernels {
     };
 }
 
+/// Appends to what a macro is given the instruction sets for which the kernels are compiled: there are no tests of
+/// those that no processor of this architecture has. Tests of one that only this processor lacks say so.
+#[cfg(target_arch = "x86_64")]
+macro_rules! for_each_set {
+    ($then:ident!($($given:tt)*)) => { $then!($($given)* portable avx2 avx512); };
+}
+#[cfg(target_arch = "aarch64")]
+macro_rules! for_each_set {
+    ($then:ident!($($given:tt)*)) => { $then!($($given)* portable neon); };
+}
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+macro_rules! for_each_set {
+    ($then:ident!($($given:tt)*)) => { $then!($($given)* portable); };
+}
+
+macro_rules! names {
+    ($($instructions:ident)*) => {
+        /// The sets that kernels are tested by.
+        const SETS: &[&str] = &[$(stringify!($instructions)),*];
+    };
+}
+
+for_each_set!(names!());
+
+#[test]
+fn every_set_of_this_processor_is_tested() {
+    for set in InstructionSet::available() {
+        assert!(SETS.contains(&set.name()), "{set}");
+    }
+}
+
 macro_rules! packets {
     ($($kind:ident = $packet:ident)*) => {
         mod packets {
@@ -133,8 +164,8 @@ macro_rules! builder {
             queries!(balls_2d, BALLS_2D, closest_hit any_hit all_hits all_touched count);
             queries!(balls_3d, BALLS_3D, closest_hit any_hit all_hits all_touched count);
             queries!(triangles_f64, TRIANGLES_F64, closest_hit any_hit all_hits all_touched count);
-            kernels!(kernels, TRIANGLES, PACKETS, portable neon avx2 avx512);
-            $(kernels!($kernels_f64, TRIANGLES_F64, PACKETS_F64, portable neon avx2 avx512);)?
+            for_each_set!(kernels!(kernels, TRIANGLES, PACKETS,));
+            $(for_each_set!(kernels!($kernels_f64, TRIANGLES_F64, PACKETS_F64,));)?
             packets!(masked = Masked interval = Interval frustum = Frustum);
         }
     };

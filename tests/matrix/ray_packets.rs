@@ -10,7 +10,7 @@ use kdray::{
 };
 use kdray_tests::bits::Bits;
 use kdray_tests::rays::random;
-use kdray_tests::{OwnedPacket, Packer, Subject};
+use kdray_tests::{OwnedPacket, Packer, Subject, sets};
 use rand::RngExt;
 use rand::seq::IndexedRandom;
 use rand_pcg::Pcg64Mcg;
@@ -136,8 +136,9 @@ pub(crate) fn on_each<T: Precision>(
     instructions: &str,
     check: Check<T>,
 ) {
+    let Some(set) = sets::named(instructions) else { return };
     for (case, packets) in cases.iter().zip(packets) {
-        let Some(scene) = scene_with(options, case, instructions) else { return };
+        let scene = scene_with(options, case, set);
         let rays: Vec<Ray> = case.aimed.iter().map(|aimed| aimed.ray).collect();
         let mut packer = Packer::new(&case.subject, &rays, case.seed + 1);
         let in_planes = packer.in_split_planes(scene.tree(), IN_SPLIT_PLANES);
@@ -236,11 +237,12 @@ pub(crate) fn nearly_all_in_float<T: Precision>(
     cases: &[Case<TriangleMesh<T>, 3>],
     instructions: &str,
 ) {
+    let Some(set) = sets::named(instructions) else { return };
     // Single rays are not accurate either where coordinates are far larger than triangles.
     let is_far = |case: &Case<TriangleMesh<T>, 3>| case.name == "far soup";
     let is_empty = |case: &Case<TriangleMesh<T>, 3>| case.subject.triangles().is_empty();
     for case in cases.iter().filter(|case| !is_far(case) && !is_empty(case)) {
-        let Some(exact) = scene_with(options, case, instructions) else { return };
+        let exact = scene_with(options, case, set);
         let float = exact.clone().with_arithmetic(Arithmetic::Float);
         let mut packer = Packer::new(&case.subject, &[], case.seed + 2);
         let packets: Vec<_> = (0..8).flat_map(|_| packer.at_random(256)).collect();

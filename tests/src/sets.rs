@@ -2,6 +2,26 @@
 
 use kdray::primitives::HitArrays;
 use kdray::{InstructionSet, Precision, RayPacket, Scene};
+use std::collections::BTreeSet;
+use std::io::{self, Write};
+use std::sync::{Mutex, PoisonError};
+
+/// The set of a name. `None` if this processor does not have it: then this says so, once, and no more, with the
+/// environment variable `CI` neither, for processors differ.
+pub fn named(name: &str) -> Option<InstructionSet> {
+    let found = InstructionSet::of_name(name);
+    found.inspect_err(|unknown| say_once(&format!("skipped: tests of {name}: {unknown}"))).ok()
+}
+
+/// Says it where it is seen: what a test prints by `eprintln` nobody sees, if it passes.
+fn say_once(what: &str) {
+    static SAID: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
+    let mut said = SAID.lock().unwrap_or_else(PoisonError::into_inner);
+    if said.insert(what.to_owned()) {
+        // It is as good as said if nobody can be told.
+        let _ = writeln!(io::stderr(), "{what}");
+    }
+}
 
 /// A scene as it is searched by each instruction set that this processor has, the best last.
 pub fn by_each_set<T: Precision>(scene: &Scene<T>) -> impl Iterator<Item = Scene<T>> {
