@@ -74,20 +74,19 @@ macro_rules! kernels {
                     #[test]
                     fn packets_closest_hit() {
                         let set = stringify!($instructions);
-                        ray_packets::on_each(&options(), (&$cases, &$packets), set, ray_packets::closest_hit);
+                        ray_packets::closest_hits(&options(), (&$cases, &$packets), set);
                     }
 
                     #[test]
                     fn packets_any_hit() {
                         let set = stringify!($instructions);
-                        ray_packets::on_each(&options(), (&$cases, &$packets), set, ray_packets::any_hit);
+                        ray_packets::any_hits(&options(), (&$cases, &$packets), set);
                     }
 
                     #[test]
                     fn packets_in_float() {
                         let set = stringify!($instructions);
-                        ray_packets::on_each(&options(), (&$cases, &$packets), set, ray_packets::float);
-                        ray_packets::nearly_all_in_float(&options(), &$cases, set);
+                        ray_packets::in_float(&options(), (&$cases, &$packets), set);
                     }
                 }
             )*
