@@ -7,6 +7,7 @@
 
 mod cases;
 mod checks;
+mod float;
 mod packets;
 mod ray_packets;
 
@@ -87,6 +88,12 @@ macro_rules! kernels {
                     fn packets_in_float() {
                         let set = stringify!($instructions);
                         ray_packets::in_float(&options(), (&$cases, &$packets), set);
+                    }
+
+                    #[test]
+                    fn in_float() {
+                        let set = stringify!($instructions);
+                        float::is_close_to_exact(&options(), &$cases, set);
                     }
                 }
             )*
