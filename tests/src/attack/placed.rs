@@ -256,7 +256,8 @@ mod tests {
         let scene = Scene::build(mesh, &BuildOptions::default()).unwrap();
         let flat = Flat::new(scene.mesh());
         let mut random = random(4);
-        let mut copies = Copies::new(&scene, &flat, &mut random).expect("they are small");
+        let copies = Copies::new(&scene, &flat, &mut random).unwrap();
+        let mut copies = copies.expect("they are small");
         assert_eq!(copies.placings.len(), COPIES);
         let mut instances = copies.scene.instances().to_vec();
         instances[1].to_world[0][3] += wrong;
