@@ -337,11 +337,11 @@ mod tests {
     #[test]
     fn what_is_beyond_f64_is_no_hit() {
         let flat = Flat::new(&mesh(boxes(1)));
-        // Two faces, at t = 2^halvings and twice that.
+        // Two faces, at t = 1.5 and 2.5 times 2^halvings.
         for (halvings, hits, reaches_beyond) in [(1022, 2, false), (1023, 1, true), (1024, 0, true)]
         {
             let tiny = f64::from_bits(1 << (1074 - halvings));
-            let ray = Ray::new([0.25, 0.5, -1.0], [0.0, 0.0, tiny]);
+            let ray = Ray::new([0.25, 0.5, -1.5], [0.0, 0.0, tiny]);
             let truth = Truth::of(&flat, &ray);
             let found = (truth.crossed.len(), truth.reaches_beyond);
             assert_eq!(found, (hits, reaches_beyond), "{ray:?}");

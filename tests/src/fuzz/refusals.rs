@@ -99,9 +99,8 @@ fn lies_beyond<T: Precision>(geometries: &[Scene<T>], instance: &Instance) -> bo
     let farthest = (0..8).map(corner).fold(0.0, f64::max);
     let uneven = uneven(&to_world.matrix3);
     let room = CARRYING_ERROR * uneven * (farthest + to_world.translation.abs().max_element());
-    let last = if T::FITS_TREE { f64::from(f32::MAX) } else { f64::MAX };
     // What is not a number is beyond as well.
-    let is_within = farthest + room < last / 4.0 && (T::FITS_TREE || uneven < UNEVEN);
+    let is_within = farthest + room < f64::MAX / 4.0 && uneven < UNEVEN;
     !is_within
 }
 
@@ -148,8 +147,9 @@ mod tests {
         assert_eq!(check_matrix(stretched([1.0, f64::NAN, 1.0], 0.0)), singular);
         assert_eq!(check_matrix(stretched([1e-310; 3], 0.0)), singular);
         assert_eq!(check_matrix(stretched([1e-200; 3], 1e200)), singular);
-        assert_eq!(check_matrix(stretched([1.0; 3], 1e39)), beyond);
-        assert_eq!(check_matrix(stretched([1.0, 1e39, 1.0], 0.0)), beyond);
+        assert_eq!(check_matrix(stretched([1e308; 3], 1.7e308)), beyond);
+        assert_eq!(check_matrix(stretched([1.0, 1e60, 1.0], 0.0)), beyond);
+        assert_eq!(check_matrix(stretched([1.0; 3], 1e39)), None);
         assert_eq!(check_matrix(stretched([1.0, 1e-3, 2.0], 5.0)), None);
     }
 

@@ -69,9 +69,9 @@ pub enum InstanceError {
     /// not the identity to 2^-26.
     #[error("the matrix of instance {0} cannot be inverted; give one that flattens nothing")]
     Singular(usize),
-    /// A copy lies beyond the largest f64, or its matrix stretches so unevenly that it may lie anywhere.
+    /// A copy lies beyond the largest f64, or its matrix stretches so unevenly that rounding may put it anywhere.
     #[error(
-        "instance {0} lies beyond the range of f64, or is stretched by 1e50 times as much one way as another; place it nearer to the origin, or stretch it more evenly"
+        "instance {0} lies beyond the range of f64, or is stretched so unevenly that rounding may put it anywhere; place it nearer to the origin, or stretch it more evenly"
     )]
     OutOfRange(usize),
     /// There are 2^30 instances or more.
