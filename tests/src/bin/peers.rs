@@ -40,7 +40,7 @@ fn tell(cases: Vec<Case>, folder: &Path) -> io::Result<ExitCode> {
         own.map(|answers| judge(&it.truths, answers, None))
     });
     let is_right = |it: Wrong| {
-        let others = [it.behind, it.miscounted, it.disordered].into_iter().flatten().sum::<u64>();
+        let others = [it.passed, it.miscounted, it.disordered].into_iter().flatten().sum::<u64>();
         it.lost + it.phantom + others == 0
     };
     let mut of_kdray = of_kdray.peekable();

@@ -38,7 +38,7 @@ pub struct Wrong {
     /// Closest and any hits of rays that cross the surface, and are said to hit nothing.
     pub lost: u64,
     /// Closest hits that lie behind the surface, if there are any t.
-    pub behind: Option<u64>,
+    pub passed: Option<u64>,
     /// The same of rays that do not touch the surface, and are said to hit it.
     pub phantom: u64,
     /// Lists of hits whose number has the wrong parity, if there are lists.
@@ -93,8 +93,8 @@ fn mirrored_ray(ray: &Ray, mirror: [f64; 3]) -> Ray {
 pub fn judge(truths: &[Known], answers: &Answers, aim: Option<Aim>) -> Wrong {
     let lists = answers.all.as_ref();
     let zero = || lists.map(|_| 0);
-    let behind = answers.say_where().then_some(0);
-    let mut wrong = Wrong { behind, miscounted: zero(), disordered: zero(), ..Wrong::default() };
+    let passed = answers.say_where().then_some(0);
+    let mut wrong = Wrong { passed, miscounted: zero(), disordered: zero(), ..Wrong::default() };
     for (index, known) in truths.iter().enumerate() {
         if aim.is_some_and(|aim| aim != known.aim) {
             continue;
@@ -102,10 +102,10 @@ pub fn judge(truths: &[Known], answers: &Answers, aim: Option<Aim>) -> Wrong {
         wrong.rays += 1;
         let t = answers.closest.as_ref().map(|t| t[index]);
         let closest = t.map(f32::is_finite);
-        let is_behind = t.is_some_and(|t| {
+        let is_passed = t.is_some_and(|t| {
             t.is_finite() && known.crosses && f64::from(t) > known.first * (1.0 + T_ERROR)
         });
-        wrong.behind = wrong.behind.map(|n| n + u64::from(is_behind));
+        wrong.passed = wrong.passed.map(|n| n + u64::from(is_passed));
         let any = answers.any.as_ref().map(|any| any[index] != 0);
         for is_hit in [closest, any].into_iter().flatten() {
             wrong.lost += u64::from(known.crosses && !is_hit);
@@ -128,7 +128,7 @@ impl Wrong {
         Self {
             rays: self.rays + other.rays,
             lost: self.lost + other.lost,
-            behind: sum(self.behind, other.behind),
+            passed: sum(self.passed, other.passed),
             phantom: self.phantom + other.phantom,
             miscounted: sum(self.miscounted, other.miscounted),
             disordered: sum(self.disordered, other.disordered),
@@ -159,20 +159,20 @@ mod tests {
         let (none, hit) = (f32::INFINITY, 1.0);
         let right = said([hit, none, none], [0, 2, 4, 4], vec![1.0, 2.0, 3.0, 3.0]);
         let (miscounted, disordered) = (Some(0), Some(0));
-        let behind = Some(0);
-        let expected = Wrong { rays: 3, behind, miscounted, disordered, ..Wrong::default() };
+        let passed = Some(0);
+        let expected = Wrong { rays: 3, passed, miscounted, disordered, ..Wrong::default() };
         assert_eq!(judge(&truths, &right, None), expected);
         let wrong = said([none, hit, hit], [0, 1, 3, 3], vec![1.0, 3.0, 2.0]);
         let found = judge(&truths, &wrong, Some(Aim::Vertex));
-        assert_eq!((found.lost, found.phantom, found.behind), (1, 1, Some(0)));
+        assert_eq!((found.lost, found.phantom, found.passed), (1, 1, Some(0)));
         assert_eq!((found.miscounted, found.disordered), (Some(1), Some(1)));
         assert_eq!(judge(&truths, &wrong, Some(Aim::Anything)).rays, 0);
         // The first of two surfaces is passed by.
         let through = said([2.0, hit, none], [0, 2, 4, 4], vec![1.0, 2.0, 3.0, 3.0]);
-        assert_eq!(judge(&truths, &through, None), Wrong { behind: Some(1), ..expected });
+        assert_eq!(judge(&truths, &through, None), Wrong { passed: Some(1), ..expected });
         // Who says only whether there is a hit writes zero for each.
         let without_t = said([0.0, none, none], [0, 2, 4, 4], vec![1.0, 2.0, 3.0, 3.0]);
-        assert_eq!(judge(&truths, &without_t, None), Wrong { behind: None, ..expected });
+        assert_eq!(judge(&truths, &without_t, None), Wrong { passed: None, ..expected });
     }
 
     #[test]

@@ -44,7 +44,7 @@ fn answers<'a>(judged: &'a Judged, about: &About) -> Option<&'a Answers> {
 
 fn table(judged: &[Judged], aim: Option<Aim>) -> String {
     let mut head =
-        ["", "version", "rays", "lost", "behind", "phantom", "miscounted", "out of order"].to_vec();
+        ["", "version", "rays", "lost", "passed", "phantom", "miscounted", "out of order"].to_vec();
     if aim.is_none() {
         head.extend(["closest", "any", "all"]);
     }
@@ -55,7 +55,7 @@ fn table(judged: &[Judged], aim: Option<Aim>) -> String {
         let maybe = |n: Option<u64>| n.map_or("n/a".to_owned(), |n| n.to_string());
         let mut row = vec![about.name.clone(), about.version.clone()];
         row.extend([wrong.rays, wrong.lost].map(|n| n.to_string()));
-        row.extend([maybe(wrong.behind), wrong.phantom.to_string()]);
+        row.extend([maybe(wrong.passed), wrong.phantom.to_string()]);
         row.extend([wrong.miscounted, wrong.disordered].map(maybe));
         if aim.is_none() {
             let seconds: [fn(&About) -> Option<f64>; 3] =
