@@ -4,7 +4,7 @@ use crate::formats::{Request, read_format};
 use crate::input::{Limited, Siblings, decompressed, peek};
 use crate::{Format, LoadError, Model};
 use std::fs::File;
-use std::io::Read;
+use std::io::{self, Read};
 use std::path::Path;
 
 /// How files are loaded.
@@ -39,7 +39,7 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Model, LoadError> {
     let name = path.display().to_string();
     let fail = |error| LoadError::Io { file: name.clone(), error };
     if path.is_dir() {
-        return Err(fail(std::io::ErrorKind::IsADirectory.into()));
+        return Err(fail(io::ErrorKind::IsADirectory.into()));
     }
     let file = File::open(path).map_err(fail)?;
     let folder = path.parent().unwrap_or(Path::new(""));
@@ -72,9 +72,27 @@ fn read_from(
     let fail = |error| LoadError::Io { file: name.to_owned(), error };
     let plain = Limited::new(decompressed(bytes).map_err(fail)?, options.max_bytes);
     let request = Request { file: name, siblings, options };
-    let (start, bytes) = peek(Box::new(plain), 1024).map_err(|e| request.read_error(e))?;
+    let peeked =
+        peek(Box::new(plain), 1024).and_then(|(start, bytes)| unmarked(start, bytes, format));
+    let (start, bytes) = peeked.map_err(|e| request.read_error(e))?;
     let format = format
         .or_else(|| Format::from_content(&start))
         .ok_or_else(|| LoadError::UnknownFormat { file: name.to_owned() })?;
     read_format(format, bytes, &start, &request)
+}
+
+/// Start and bytes without the byte order mark with which some editors begin a text in UTF-8. What
+/// a binary STL begins with means nothing, and counts.
+fn unmarked<'a>(
+    mut start: Vec<u8>,
+    mut bytes: Box<dyn Read + 'a>,
+    format: Option<Format>,
+) -> io::Result<(Vec<u8>, Box<dyn Read + 'a>)> {
+    const MARK: &[u8] = b"\xef\xbb\xbf";
+    let is_binary_stl = format == Some(Format::Stl) && start.contains(&0);
+    if start.starts_with(MARK) && !is_binary_stl {
+        start.drain(..MARK.len());
+        bytes.read_exact(&mut [0; MARK.len()])?;
+    }
+    Ok((start, bytes))
 }

@@ -75,6 +75,44 @@ fn obj_lines_end_in_any_way() {
 }
 
 #[test]
+fn a_byte_order_mark_is_no_part_of_a_text() {
+    let triangle = "0 0 0\n1 0 0\n0 1 0\n";
+    let header = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n\
+                  property float z\nelement face 1\nproperty list uchar int vertex_indices\n";
+    let corners = "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n";
+    let stl = format!("solid s\nfacet normal 0 0 1\nouter loop\n{corners}endloop\nendfacet\n");
+    for (name, text) in [
+        ("a.off", format!("OFF\n3 1 0\n{triangle}3 0 1 2\n")),
+        ("a.ply", format!("{header}end_header\n{triangle}3 0 1 2\n")),
+        ("a.stl", format!("{stl}endsolid s\n")),
+        ("a.obj", format!("{SQUARE}f 1 2 3\n")),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        for name in [name, "by content"] {
+            write(folder.path(), name, format!("\u{feff}{text}"));
+            let model = load(&folder.path().join(name), &LoadOptions::default()).unwrap();
+            assert_eq!(model.triangles.len(), 1, "{name}: {text}");
+        }
+    }
+    let binary = [b"\xef\xbb\xbf", &[b' '; 77][..], &1_u32.to_le_bytes(), &[0; 50]].concat();
+    let model = read(&binary[..], Format::Stl, "binary", &LoadOptions::default()).unwrap();
+    assert_eq!(model.triangles.len(), 1, "what a binary STL begins with counts");
+}
+
+#[test]
+fn ply_textures_beyond_the_first_are_left_out_with_a_warning() {
+    let textures = "comment TextureFile a.png\ncomment TextureFile b c.png\n";
+    let text = format!(
+        "ply\nformat ascii 1.0\n{textures}{textures}element vertex 0\n\
+                        property float x\nproperty float y\nproperty float z\nend_header\n"
+    );
+    let model = read_text(Format::Ply, &text).unwrap();
+    let second = "texture \"b c.png\" left out: all faces have the first, \"a.png\"";
+    let said = model.warnings.iter().filter(|warning| warning.contains(second)).count();
+    assert_eq!(said, 1, "{:?}", model.warnings);
+}
+
+#[test]
 fn obj_comments_that_end_in_a_backslash_swallow_no_line() {
     let start = "# made in C:\\models\\\nv 0 0 0\n  #\\\nv 1 0 0 # D:\\\nv 0 1 0\n";
     let model = read_text(Format::Obj, &format!("{start}f 1 \\\n2 \\\n3 # \\\nf 1 2 3\n"));

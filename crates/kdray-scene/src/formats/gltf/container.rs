@@ -20,15 +20,11 @@ pub(super) fn read(
     if start.starts_with(b"glTF") {
         return read_glb(bytes, request);
     }
-    let text = start.strip_prefix(b"\xef\xbb\xbf").unwrap_or(start);
-    if !text.trim_ascii_start().starts_with(b"{") {
+    if !start.trim_ascii_start().starts_with(b"{") {
         let reason = "neither a JSON object nor a GLB container";
         return Err(request.invalid(Place::Byte(0), reason));
     }
-    let mut bytes = BufReader::new(bytes);
-    let mark = &mut vec![0; start.len() - text.len()];
-    bytes.read_exact(mark).map_err(|error| request.read_error(error))?;
-    let root = parse(serde_json::Deserializer::from_reader(bytes), request)?;
+    let root = parse(serde_json::Deserializer::from_reader(BufReader::new(bytes)), request)?;
     Ok(Container { root, binary: None })
 }
 

@@ -8,8 +8,8 @@ use crate::{LoadError, Place};
 pub(super) struct Header {
     pub(super) encoding: Encoding,
     pub(super) elements: Vec<Element>,
-    /// The image that texture coordinates belong to, from a comment that MeshLab writes.
-    pub(super) texture: Option<String>,
+    /// The images that texture coordinates belong to, from comments that MeshLab writes.
+    pub(super) textures: Vec<String>,
 }
 
 /// A list of like things, such as the vertices.
@@ -72,7 +72,7 @@ impl Header {
 struct Draft {
     encoding: Option<Encoding>,
     elements: Vec<Element>,
-    texture: Option<String>,
+    textures: Vec<String>,
 }
 
 impl Draft {
@@ -81,7 +81,9 @@ impl Draft {
         match words {
             ["comment", "TextureFile", ..] => {
                 let name = line.split_once("TextureFile").map_or("", |(_, name)| name.trim());
-                self.texture.get_or_insert(name.to_owned());
+                if !self.textures.iter().any(|other| other == name) {
+                    self.textures.push(name.to_owned());
+                }
             }
             [] | ["comment" | "obj_info", ..] => {}
             ["format", name, _version] => {
@@ -106,7 +108,7 @@ impl Draft {
 
     fn finish(self) -> Result<Header, &'static str> {
         let encoding = self.encoding.ok_or("the header has no format line")?;
-        Ok(Header { encoding, elements: self.elements, texture: self.texture })
+        Ok(Header { encoding, elements: self.elements, textures: self.textures })
     }
 }
 

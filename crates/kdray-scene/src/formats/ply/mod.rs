@@ -28,8 +28,11 @@ pub(super) fn read(bytes: Box<dyn Read + '_>, request: &Request<'_>) -> Result<M
     let header = Header::read(&mut scanner)?;
     let mut values = Values::new(scanner, header.encoding);
     let mut builder = MeshBuilder::new(request);
-    if let Some(name) = &header.texture {
+    if let Some((name, others)) = header.textures.split_first() {
         add_texture(name, &mut builder, request);
+        for other in others {
+            builder.warn(format!("texture {other:?} left out: all faces have the first, {name:?}"));
+        }
     }
     let mut attributes = VertexAttributes::default();
     let mut skipped = Vec::new();
