@@ -53,7 +53,7 @@ pub(crate) enum CliError {
     #[error(transparent)]
     World(WorldError),
     /// A camera, light or option that nothing can be rendered with.
-    #[error(transparent)]
+    #[error("{0}{advice}", advice = render_advice(.0))]
     Render(#[from] RenderError),
     /// Triangles that no tree can be built over.
     #[error(transparent)]
@@ -128,6 +128,15 @@ impl CliError {
 /// What the library cannot say: by which option.
 fn advice(error: &BuildError) -> &'static str {
     if matches!(error, BuildError::Memory { .. }) { " with --memory-limit" } else { "" }
+}
+
+/// The same for a picture.
+fn render_advice(error: &RenderError) -> &'static str {
+    if matches!(error, RenderError::TooLarge { .. }) {
+        " (options --size and --layers)"
+    } else {
+        ""
+    }
 }
 
 /// The same for a tree file.

@@ -18,6 +18,8 @@ static WATCHERS: AtomicUsize = AtomicUsize::new(0);
 static TEMPORARY_FILES: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
 /// Begins to listen for Ctrl-C, and for requests to terminate or to hang up, which count as such.
+/// Whoever started the process may have it ignore one of them, as `nohup` does: it stays ignored,
+/// and the others do what they do by themselves.
 pub(crate) fn listen() {
     let stop = || {
         let again = REQUESTED.swap(true, Ordering::SeqCst);
@@ -27,7 +29,7 @@ pub(crate) fn listen() {
         }
     };
     // Without a handler Ctrl-C ends the process, which is good enough.
-    let _ = ctrlc::set_handler(stop);
+    let _ = ctrlc::try_set_handler(stop);
 }
 
 /// Has this file removed if Ctrl-C ends the process at once, which runs no destructors.

@@ -45,6 +45,11 @@ impl Progress {
         progress
     }
 
+    /// Begins work that shows no bar.
+    pub(crate) fn unseen(globals: &Globals) -> Self {
+        Self { bar: ProgressBar::hidden(), quiet: globals.quiet, start: Instant::now() }
+    }
+
     /// So much of the total is done.
     pub(crate) fn set(&self, done: u64) {
         self.bar.set_position(done);

@@ -1,6 +1,6 @@
 //! Numbers as people read them.
 
-use std::fmt::Display;
+use std::fmt::{Debug, Display};
 
 /// A number of things, in the right form.
 pub(crate) fn counted<N: Display + PartialEq + From<u8>>(
@@ -12,8 +12,16 @@ pub(crate) fn counted<N: Display + PartialEq + From<u8>>(
     format!("{count} {name}")
 }
 
-/// A number for people: six significant digits at most, no trailing zeros, `∞` and `–` for what
-/// is not a number.
+/// A finite number that was given, in the fewest digits that tell it from its neighbours: of f32
+/// fewer than of f64.
+pub(crate) fn exact(value: impl Debug) -> String {
+    let text = format!("{value:?}");
+    let text = text.strip_suffix(".0").unwrap_or(&text);
+    if text == "-0" { "0".into() } else { text.into() }
+}
+
+/// A number that was computed, for people: six significant digits at most, no trailing zeros, `∞`
+/// and `–` for what is not a number.
 pub(crate) fn readable(value: f64) -> String {
     if value.is_nan() {
         return "–".into();
@@ -27,8 +35,31 @@ pub(crate) fn readable(value: f64) -> String {
     }
     let decimals = (5.0 - magnitude).clamp(0.0, 9.0) as usize;
     let text = format!("{value:.decimals$}");
+    without_zeros(&text)
+}
+
+/// A multiple of `step` on a scale: as many digits as tell it from the next one.
+pub(crate) fn tick(value: f64, step: f64) -> String {
+    let magnitude = |x: f64| if x == 0.0 { 0.0 } else { x.abs().log10().floor() };
+    let last = magnitude(step);
+    if value.abs() < 1e7 && (value.abs() >= 1e-4 || last >= -9.0) {
+        let decimals = (-last).max(0.0) as usize;
+        return without_zeros(&format!("{value:.decimals$}"));
+    }
+    let digits = (magnitude(value) - last).clamp(0.0, 17.0) as usize;
+    let text = format!("{value:.digits$e}");
+    match text.split_once('e') {
+        Some((number, exponent)) if exponent != "0" => {
+            format!("{}e{exponent}", without_zeros(number))
+        }
+        _ => without_zeros(text.trim_end_matches("e0")),
+    }
+}
+
+/// A decimal number without the zeros at its end, and without a sign if it is zero.
+fn without_zeros(text: &str) -> String {
     let text =
-        if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+        if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { text };
     if text == "-0" { "0".into() } else { text.into() }
 }
 
@@ -65,6 +96,32 @@ mod tests {
             (f64::NAN, "–"),
         ] {
             assert_eq!(readable(value), text);
+        }
+    }
+
+    #[test]
+    fn given_numbers_are_exact() {
+        assert_eq!([exact(690_194.56_f32), exact(0.1_f32)], ["690194.56", "0.1"].map(String::from));
+        assert_eq!([exact(-4.0), exact(1e300), exact(-0.0)], ["-4", "1e300", "0"]);
+    }
+
+    #[test]
+    fn ticks_differ_from_their_neighbours() {
+        for (value, step, text) in [
+            (499_999.8, 0.2, "499999.8"),
+            (0.6000000000000001, 0.2, "0.6"),
+            (1.0, 0.2, "1"),
+            (-0.0, 0.2, "0"),
+            (40.0, 20.0, "40"),
+            (12_345_678.0, 1.0, "1.2345678e7"),
+            (3e-12, 1e-12, "3e-12"),
+            (0.45, 5e-11, "0.45"),
+            (0.44999999995, 5e-11, "0.44999999995"),
+            (0.0, 1e-12, "0"),
+            (2e30, 1e30, "2e30"),
+            (1.0 + 3e-12, 1e-12, "1.000000000003"),
+        ] {
+            assert_eq!(tick(value, step), text);
         }
     }
 

@@ -153,6 +153,10 @@ fn a_camera_needs_a_direction_and_an_angle() {
     for (arguments, part) in cases {
         folder.kdray(&[&["render", "ball.off"], arguments].concat()).fails(USAGE, &[part]);
     }
+    for option in ["--fov", "--occlusion-distance", "--heat-max", "--exposure"] {
+        let refused = folder.kdray(&["render", "gone.off", option, "0"]);
+        refused.fails(USAGE, &[&format!("invalid value '0' for '{option}")]);
+    }
     assert_eq!(folder.names(), ["ball.off"]);
 }
 
@@ -162,6 +166,8 @@ fn a_picture_needs_pixels() {
     for size in ["0x8", "8x0", "8", "99999999x99999999"] {
         folder.kdray(&["render", "--size", size]).fails(USAGE, &["--size", size]);
     }
+    let large = ["draw", "gone.off", "-o", "a.png", "--size", "16384x16384"];
+    folder.kdray(&large).fails(USAGE, &["--size 16384x16384", ".svg"]);
     assert!(folder.names().is_empty());
 }
 
@@ -233,7 +239,7 @@ fn a_tree_that_does_not_fit_in_memory_is_refused_beforehand() {
 #[test]
 fn standard_input_without_end_is_refused_at_its_limit() {
     let folder = Folder::new();
-    let arguments = ["stats", "-", "--format", "obj", "--max-bytes", "1000000"];
+    let arguments = ["stats", "-", "--format", "obj", "--max-bytes", "1MB"];
     let ran = fed_without_end(&folder, &arguments, b"v 0 0 0\n");
     assert_eq!(ran.0, Some(INPUT), "{}", ran.1);
     assert!(ran.1.contains("standard input: longer than the limit of 1000000 bytes"), "{}", ran.1);

@@ -5,6 +5,7 @@ mod support;
 use image::{GenericImageView, ImageReader};
 use std::{
     fs,
+    io::Write,
     path::Path,
     process::{Child, Command, Stdio},
     thread::sleep,
@@ -63,21 +64,34 @@ fn options_of_the_other_format_are_refused() {
 fn a_pipe_is_an_output_like_any_other() {
     let folder = folder();
     for (name, magic) in [("pipe.png", &b"\x89PNG"[..]), ("pipe.exr", b"\x76\x2f\x31\x01")] {
-        let made = Command::new("mkfifo").arg(folder.path(name)).status().expect("mkfifo runs");
-        assert!(made.success());
-        let pipe = folder.path(name);
-        let reader = std::thread::spawn(move || fs::read(pipe).expect("the picture"));
-        render(&folder, &["-o", name]);
-        let bytes = reader.join().expect("the reader ends");
+        let bytes = through_pipe(&folder, name, || render(&folder, &["-o", name]));
         assert!(bytes.starts_with(magic) && bytes.len() > 100, "{name}: {} bytes", bytes.len());
     }
+    folder.file("rays.csv", "0.1,0.2,5,0,0,-1\n");
+    let query = ["query", "ball.off", "--rays", "rays.csv", "--out"];
+    let hits = through_pipe(&folder, "pipe.npz", || {
+        folder.kdray(&[&query[..], &["pipe.npz"]].concat()).succeeds();
+    });
+    folder.kdray(&[&query[..], &["file.npz"]].concat()).succeeds();
+    assert!(hits == fs::read(folder.path("file.npz")).expect("the hits"), "{} bytes", hits.len());
+}
+
+/// What `write` writes to a pipe of this name.
+#[cfg(unix)]
+fn through_pipe(folder: &Folder, name: &str, write: impl FnOnce()) -> Vec<u8> {
+    let made = Command::new("mkfifo").arg(folder.path(name)).status().expect("mkfifo runs");
+    assert!(made.success());
+    let pipe = folder.path(name);
+    let reader = std::thread::spawn(move || fs::read(pipe).expect("all of it"));
+    write();
+    reader.join().expect("the reader ends")
 }
 
 #[test]
 #[cfg(unix)]
 fn a_render_that_is_ended_at_once_leaves_nothing() {
     let folder = folder();
-    let mut command = Command::new(binary());
+    let mut command = listening();
     command.args(["render", "ball.off", "--size", "960x960", "--samples", "60000"]);
     command.current_dir(folder.path("")).stdout(Stdio::null()).stderr(Stdio::null());
     let mut child = command.spawn().expect("the command runs");
@@ -248,27 +262,75 @@ fn completions_and_manual_pages_are_made() {
 #[cfg(unix)]
 fn interrupted(folder: &Folder, arguments: &[&str], sign: &str) -> Option<i32> {
     let said = fs::File::create(folder.path("said")).expect("a file");
-    let mut command = Command::new(binary());
+    let mut command = listening();
     command.args(arguments).current_dir(folder.path(""));
     command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(said);
     let mut child = command.spawn().expect("the command runs");
-    let start = Instant::now();
-    while !fs::read_to_string(folder.path("said")).expect("text").contains(sign) {
-        assert!(start.elapsed() < Duration::from_secs(60), "it does not say {sign}");
-        sleep(Duration::from_millis(10));
-    }
-    sleep(Duration::from_millis(100));
+    wait_for(folder, sign);
     interrupt(&child);
     let code = child.wait().expect("an end").code();
     fs::remove_file(folder.path("said")).expect("the file");
     code
 }
 
+/// The command as one starts it by hand: it ignores no signals, whatever these tests ignore.
+#[cfg(unix)]
+fn listening() -> Command {
+    if cfg!(not(target_os = "linux")) {
+        return Command::new(binary());
+    }
+    let mut command = Command::new("env");
+    command.arg("--default-signal=HUP,INT,TERM").arg(binary());
+    command
+}
+
 #[cfg(unix)]
 fn interrupt(child: &Child) {
+    send(child, "-INT");
+}
+
+#[cfg(unix)]
+fn send(child: &Child, signal: &str) {
     let id = child.id().to_string();
     // Fails if the process has ended already.
-    Command::new("kill").args(["-INT", &id]).output().expect("kill runs");
+    Command::new("kill").args([signal, &id]).output().expect("kill runs");
+}
+
+/// Waits until the command has said `sign`.
+#[cfg(unix)]
+fn wait_for(folder: &Folder, sign: &str) {
+    let start = Instant::now();
+    while !fs::read_to_string(folder.path("said")).expect("text").contains(sign) {
+        assert!(start.elapsed() < Duration::from_secs(60), "it does not say {sign}");
+        sleep(Duration::from_millis(10));
+    }
+    sleep(Duration::from_millis(100));
+}
+
+#[test]
+#[cfg(unix)]
+fn a_signal_that_was_ignored_stays_ignored() {
+    let folder = folder();
+    for name in ["INT", "HUP"] {
+        let mut command = Command::new("sh");
+        let script = format!("trap '' {name}; exec \"$0\" \"$@\"");
+        command.arg("-c").arg(script).arg(binary()).current_dir(folder.path(""));
+        command.args(["query", "ball.off", "--rays", "-", "--mode", "any", "--out", "-"]);
+        let said = fs::File::create(folder.path("said")).expect("a file");
+        command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(said);
+        let mut child = command.spawn().expect("the command runs");
+        let mut stdin = child.stdin.take().expect("a pipe");
+        let mut ask = || stdin.write_all(b"0.1,0.2,5,0,0,-1\n");
+        ask().expect("it reads");
+        wait_for(&folder, "built a tree");
+        send(&child, &format!("-{name}"));
+        sleep(Duration::from_millis(100));
+        ask().unwrap_or_else(|_| panic!("ended by {name}"));
+        drop(stdin);
+        let output = child.wait_with_output().expect("an end");
+        assert_eq!(output.status.code(), Some(0), "{name}");
+        assert_eq!(output.stdout, b"occluded\ntrue\ntrue\n");
+    }
 }
 
 #[test]

@@ -3,9 +3,12 @@
 mod support;
 
 use serde_json::Value;
-use std::fs;
+use std::{
+    fs,
+    process::{Command, Stdio},
+};
 use support::seen::{count_class, json, number, png_size};
-use support::{Folder, INPUT, OUTPUT, USAGE, bumpy_ball};
+use support::{Folder, INPUT, OUTPUT, USAGE, binary, bumpy_ball};
 
 /// The triangle of the lecture's worked example (S4): its box is (−2, −2, 4) to (2, 2, 9).
 const LECTURE: &str = "v -2 2 4\nv 2 2 4\nv 2 -2 9\nf 1 2 3\n";
@@ -101,6 +104,59 @@ fn rays_that_cannot_be_traced_are_refused_or_miss() {
     let ran = folder.kdray(&["trace", "empty.off", "--ray", "0,0,0,1,0,0"]).succeeds();
     assert!(ran.stdout.contains("no triangles") && ran.stdout.contains("no hit"));
     assert_eq!(folder.names(), ["ball.off", "eight.off", "empty.off", "lecture.obj"]);
+}
+
+#[test]
+fn pictures_are_drawn_even_if_nobody_reads_the_text() {
+    let folder = folder();
+    let commands: [&[&str]; 3] = [
+        &["trace", "ball.off", "--pixel", "470,330", "-o", "drawn.svg"],
+        &["trace", "ball.off", "--tile", "470,330", "-o", "drawn.svg"],
+        &["compare", "ball.off", "--rays", "9", "--rounds", "1", "--plot", "drawn.svg"],
+    ];
+    for arguments in commands {
+        let mut command = Command::new(binary());
+        command.args(arguments).arg("--quiet").current_dir(folder.path(""));
+        let mut child = command.stdout(Stdio::piped()).spawn().expect("the command runs");
+        drop(child.stdout.take());
+        assert!(child.wait().expect("an end").success(), "{arguments:?}");
+        fs::remove_file(folder.path("drawn.svg")).expect("the picture");
+    }
+}
+
+#[test]
+fn a_short_direction_is_drawn_as_a_long_one() {
+    let folder = folder();
+    let ray = ["--ray", "0.1,0.2,5,0,1e-17,-1e-16"];
+    folder.kdray(&[&["trace", "ball.off", "-o", "ray.svg"], &ray[..]].concat()).succeeds();
+    let svg = fs::read_to_string(folder.path("ray.svg")).expect("the picture");
+    assert!(!svg.contains("NaN") && svg.contains("hit, t = "), "{svg}");
+}
+
+#[test]
+fn any_file_name_makes_a_well_formed_picture() {
+    let folder = folder();
+    let name = "a\u{1}b & <c>.off";
+    folder.file(name, support::OCTAHEDRON);
+    folder.kdray(&["draw", name, "-o", "slice.svg", "--slice", "z=0.1"]).succeeds();
+    assert!(count_class(&folder.path("slice.svg"), "cell") > 0);
+}
+
+#[test]
+fn options_without_a_meaning_are_refused() {
+    let folder = folder();
+    let cases: [(&[&str], &str); 7] = [
+        (&["stats", "--drop-bad"], "<SCENE>"),
+        (&["stats", "--format", "ply"], "<SCENE>"),
+        (&["stats", "--max-bytes", "3"], "<SCENE>"),
+        (&["trace", "eight.off", "--ray", "0,0,5,0,0,-1", "--camera", "no"], "--camera"),
+        (&["trace", "eight.off", "--ray", "0,0,5,0,0,-1", "--fov", "50"], "--fov"),
+        (&["trace", "eight.off", "--pixel", "1,1", "--light", "0,9,0"], "--light"),
+        (&["compare", "eight.off", "--packets", "--light", "0,9,0"], "--light"),
+    ];
+    for (arguments, part) in cases {
+        folder.kdray(arguments).fails(USAGE, &[part]);
+    }
 }
 
 #[test]

@@ -4,7 +4,7 @@ mod support;
 
 use std::fs;
 use support::{
-    Folder, INPUT, OUTPUT, USAGE, bumpy_ball,
+    Folder, INPUT, OCTAHEDRON, OUTPUT, USAGE, bumpy_ball,
     rays::{npy, rays},
 };
 
@@ -145,6 +145,21 @@ fn how_to_build_is_not_asked_of_a_tree_that_is_there() {
         folder.kdray(&[&query[..], &option].concat()).fails(USAGE, &["leave out", option[0]]);
     }
     folder.kdray(&["stats", "ball.kdray", "--max-depth", "3"]).fails(USAGE, &["--max-depth"]);
+    folder.kdray(&["validate", "ball.kdray", "--split", "sah"]).fails(USAGE, &["--split"]);
+}
+
+#[test]
+fn a_tree_file_does_not_replace_its_scene() {
+    let folder = Folder::new();
+    let scene = folder.file("ball.off", OCTAHEDRON);
+    let whole = scene.display().to_string();
+    for out in ["ball.off", "./ball.off", &whole] {
+        let refused = folder.kdray(&["build", "ball.off", "-o", out]);
+        refused.fails(USAGE, &[out, "this is the scene itself"]);
+    }
+    folder.kdray(&["build", "ball.off", "-o", "-"]).fails(USAGE, &["standard output"]);
+    assert_eq!(fs::read_to_string(scene).unwrap(), OCTAHEDRON);
+    assert_eq!(folder.names(), ["ball.off"]);
 }
 
 #[test]

@@ -20,9 +20,9 @@ pub(crate) struct FastBuildArgs {
 /// How the tree is built that is looked at.
 #[derive(Clone, Debug, clap::Args)]
 pub(crate) struct BuildArgs {
-    /// How the splitting plane is chosen
-    #[arg(long, value_name = "STRATEGY", default_value = "sah", value_parser = strategies())]
-    pub(crate) split: Strategy,
+    /// How the splitting plane is chosen; sah without it
+    #[arg(long, value_name = "STRATEGY", value_parser = strategies())]
+    pub(crate) split: Option<Strategy>,
     #[command(flatten)]
     pub(crate) limits: LimitArgs,
 }
@@ -67,7 +67,12 @@ impl FastBuildArgs {
 impl BuildArgs {
     /// What the library is asked for.
     pub(crate) fn options(&self) -> BuildOptions {
-        self.limits.options(self.split)
+        self.limits.options(self.strategy())
+    }
+
+    /// How the splitting plane is chosen.
+    pub(crate) fn strategy(&self) -> Strategy {
+        self.split.unwrap_or_default()
     }
 }
 

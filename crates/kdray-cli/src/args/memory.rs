@@ -1,5 +1,6 @@
-//! Sizes of memory: `8GiB`, `500MB`, `none`; and how much there is.
+//! Limits of memory: `8GiB`, `500MB`, `none`; and how much there is.
 
+use super::bytes;
 use std::str::FromStr;
 use sysinfo::{ProcessRefreshKind, ProcessesToUpdate, System, get_current_pid};
 
@@ -53,22 +54,7 @@ impl FromStr for MemoryLimit {
         if text.eq_ignore_ascii_case("none") {
             return Ok(Self::None);
         }
-        let explained = || format!("`{text}` is no size; give one such as 8GiB or 500MB, or none");
-        let end = text.find(|c: char| c != '.' && !c.is_ascii_digit()).unwrap_or(text.len());
-        let number: f64 = text[..end].parse().map_err(|_| explained())?;
-        let unit: f64 = match text[end..].trim().to_ascii_lowercase().as_str() {
-            "" | "b" => 1.0,
-            "kb" => 1e3,
-            "mb" => 1e6,
-            "gb" => 1e9,
-            "tb" => 1e12,
-            "k" | "kib" => 1024.0,
-            "m" | "mib" => 1024_f64.powi(2),
-            "g" | "gib" => 1024_f64.powi(3),
-            "t" | "tib" => 1024_f64.powi(4),
-            _ => return Err(explained()),
-        };
-        Ok(Self::Bytes((number * unit) as u64))
+        bytes(text).map(Self::Bytes).map_err(|error| error + ", or none")
     }
 }
 

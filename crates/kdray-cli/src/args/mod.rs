@@ -11,7 +11,9 @@ pub(crate) use build_args::{BuildArgs, FastBuildArgs, LimitArgs};
 pub(crate) use memory::MemoryLimit;
 pub(crate) use scene_args::{SceneArgs, SceneFormat};
 pub(crate) use tree_file_args::TreeFileArgs;
-pub(crate) use values::{Size, bits, color, crop, numbers, sample_range};
+pub(crate) use values::{
+    Size, bits, bytes, color, crop, field_of_view, numbers, positive, positive_f32, sample_range,
+};
 pub(crate) use view_args::ViewArgs;
 
 /// How a table is printed.

@@ -1,5 +1,6 @@
 //! Which scene.
 
+use super::bytes;
 use clap::ValueEnum;
 use kdray_scene::Format;
 use std::path::PathBuf;
@@ -13,15 +14,15 @@ pub(crate) struct SceneArgs {
     #[arg(value_name = "SCENE")]
     pub(crate) scene: Option<PathBuf>,
     /// The format, whatever the file's name and content tell; without it they decide
-    #[arg(long, value_name = "FORMAT")]
+    #[arg(long, value_name = "FORMAT", requires = "scene")]
     pub(crate) format: Option<SceneFormat>,
     /// Refuse a file that is longer than this after decompression, or glTF buffers that together
-    /// are; without it 8 GiB, and 1 GiB from standard input
-    #[arg(long, value_name = "BYTES")]
+    /// are, such as 16GiB or 500MB; without it 8 GiB, and 1 GiB from standard input
+    #[arg(long, value_name = "SIZE", value_parser = bytes, requires = "scene")]
     pub(crate) max_bytes: Option<u64>,
     /// Drop triangles with indices out of range or vertices that are not finite, and count them;
     /// without it they are an error
-    #[arg(long)]
+    #[arg(long, requires = "scene")]
     pub(crate) drop_bad: bool,
 }
 

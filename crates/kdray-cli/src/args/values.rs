@@ -76,6 +76,52 @@ pub(crate) fn sample_range(text: &str) -> Result<Range<u32>, String> {
     range.filter(|range| !range.is_empty()).ok_or_else(|| form.to_owned())
 }
 
+/// Reads a number of bytes, such as `8GiB` or `500MB`.
+pub(crate) fn bytes(text: &str) -> Result<u64, String> {
+    let explained = || format!("`{text}` is no size; give one such as 8GiB or 500MB");
+    let end = text.find(|c: char| c != '.' && !c.is_ascii_digit()).unwrap_or(text.len());
+    let unit = match text[end..].trim().to_ascii_lowercase().as_str() {
+        "" | "b" => 1,
+        "kb" => 1000,
+        "mb" => 1_000_000,
+        "gb" => 1_000_000_000,
+        "tb" => 1_000_000_000_000,
+        "k" | "kib" => 1 << 10,
+        "m" | "mib" => 1 << 20,
+        "g" | "gib" => 1 << 30,
+        "t" | "tib" => 1 << 40,
+        _ => return Err(explained()),
+    };
+    if let Ok(number) = text[..end].parse::<u64>() {
+        return number.checked_mul(unit).ok_or_else(explained);
+    }
+    let number: f64 = text[..end].parse().map_err(|_| explained())?;
+    let bytes = number * unit as f64;
+    if bytes < u64::MAX as f64 { Ok(bytes as u64) } else { Err(explained()) }
+}
+
+/// Reads a number above zero.
+pub(crate) fn positive(text: &str) -> Result<f64, String> {
+    let [value] = numbers::<1>(text).map_err(|_| "give a number above zero".to_owned())?;
+    if value > 0.0 { Ok(value) } else { Err("give a number above zero".to_owned()) }
+}
+
+/// The same for one of 32 bits.
+pub(crate) fn positive_f32(text: &str) -> Result<f32, String> {
+    let value = positive(text)? as f32;
+    if value > 0.0 && value.is_finite() {
+        Ok(value)
+    } else {
+        Err("give a number of 32 bits".into())
+    }
+}
+
+/// Reads an angle of view in degrees.
+pub(crate) fn field_of_view(text: &str) -> Result<f64, String> {
+    let degrees = positive(text).ok().filter(|degrees| *degrees < 180.0);
+    degrees.ok_or_else(|| "give degrees between 0 and 180".to_owned())
+}
+
 /// Reads bits a channel.
 pub(crate) fn bits(text: &str) -> Result<PngDepth, String> {
     match text {
@@ -111,6 +157,30 @@ mod tests {
         for bad in ["", "3", "..", "3..", "..7", "7..7", "7..3", "3..=7", "-1..2", "3-7"] {
             assert!(sample_range(bad).is_err(), "{bad}");
         }
+    }
+
+    #[test]
+    fn bytes_have_units() {
+        let most = u64::MAX.to_string();
+        for (text, number) in [("16GiB", 1 << 34), ("1.5 kB", 1500), ("7", 7), (&most, u64::MAX)] {
+            assert_eq!(bytes(text), Ok(number), "{text}");
+        }
+        for bad in ["", "GiB", "-1GB", "none", "1.2.3", "18446744073709551616KiB"] {
+            assert!(bytes(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn ranges_of_numbers_are_kept() {
+        assert_eq!(
+            (positive("1e-3"), positive_f32("2"), field_of_view("90")),
+            (Ok(0.001), Ok(2.0), Ok(90.0))
+        );
+        for bad in ["0", "-1", "nan", "inf", "x", ""] {
+            assert!(positive(bad).is_err() && field_of_view(bad).is_err(), "{bad}");
+        }
+        assert!(positive_f32("1e39").is_err() && positive_f32("1e-60").is_err());
+        assert!(field_of_view("180").is_err());
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! From where the scene is seen, and how large the picture is.
 
-use super::{Size, numbers};
+use super::{Size, field_of_view, numbers};
 use crate::error::CliError;
 use kdray::Aabb;
 use kdray_render::{Background, Y_UP, frame, point_light_for};
@@ -25,7 +25,7 @@ pub(crate) struct ViewArgs {
     pub(crate) up: Option<[f64; 3]>,
     /// The angle between the lower and the upper edge of the picture, below 180; without it the
     /// camera's
-    #[arg(long, value_name = "DEGREES")]
+    #[arg(long, value_name = "DEGREES", value_parser = field_of_view)]
     pub(crate) fov: Option<f64>,
     /// A camera of the file, by its name or by its number from 0
     #[arg(long, value_name = "NAME|INDEX")]

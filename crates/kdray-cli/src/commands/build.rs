@@ -37,11 +37,27 @@ pub(crate) struct Args {
 
 /// Builds and saves.
 pub(crate) fn run(args: &Args, globals: &Globals) -> Result<(), CliError> {
+    check_out(args)?;
     // Before the work whose result it is to hold.
     let output = Output::create(&args.out)?;
     let mesh = load::mesh(&args.scene, globals)?;
     let scene = build::scene(mesh, &args.build.options(), globals)?;
     write(&scene, output, &args.out, globals)
+}
+
+/// Refuses the scene's own file, and standard output.
+fn check_out(args: &Args) -> Result<(), CliError> {
+    let (out, scene) = (&args.out, args.scene.scene.as_deref());
+    let real = |path: &Path| path.canonicalize().ok();
+    let refused = if out == Path::new("-") {
+        "a tree file does not go to standard output"
+    } else if real(out).is_some_and(|out| scene.and_then(real) == Some(out)) {
+        "this is the scene itself"
+    } else {
+        return Ok(());
+    };
+    let out = out.display();
+    Err(CliError::Usage(format!("--out {out}: {refused}; give another name, such as tree.kdray")))
 }
 
 fn write(

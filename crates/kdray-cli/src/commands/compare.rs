@@ -64,7 +64,7 @@ pub(crate) struct Args {
     plot: Option<PathBuf>,
     /// Compare packets of camera rays with single ones instead, on the tree of sah: how often a node
     /// is decided upon, a triangle set up and a ray tested. Rays fill tiles of 16 x 16 pixels
-    #[arg(long, conflicts_with_all = ["rounds", "no_naive", "plot"])]
+    #[arg(long, conflicts_with_all = ["rounds", "no_naive", "plot", "light"])]
     packets: bool,
     #[command(flatten)]
     view: ViewArgs,
@@ -96,16 +96,16 @@ pub(crate) fn run(args: &Args, globals: &Globals) -> Result<(), CliError> {
     measure::check_answers(&contenders.list)?;
 
     let report = Report::new(&contenders.list, &rays, &mesh, args, threads);
-    if args.table.json {
-        print_json(&report)?;
-    } else {
-        output::print(report.text(&scene_name(&args.scene)).as_bytes())?;
-    }
+    // The charts first: whoever reads the table may stop, as `head` does.
     if let (Some(file), Some(out)) = (plot, &args.plot) {
         file.write(plot::draw(&report, &scene_name(&args.scene)), 1.5)?;
         progress::say(globals, &format!("drew the charts: {}", out.display()));
     }
-    Ok(())
+    if args.table.json {
+        print_json(&report)
+    } else {
+        output::print(report.text(&scene_name(&args.scene)).as_bytes())
+    }
 }
 
 /// The triangles, taken out of the model, which keeps cameras and lights.

@@ -11,7 +11,7 @@ use crate::{
         LineColor, PictureFile, Section, Slice, Wireframe, draw_slice, draw_wireframe, scene_name,
     },
     progress,
-    wording::{counted, readable},
+    wording::{counted, exact},
 };
 use kdray_render::World;
 use std::path::{Path, PathBuf};
@@ -62,7 +62,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "WHAT", default_value = "axis")]
     color: LineColor,
     /// Rays a pixel of the render
-    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(1..=65536))]
     samples: u32,
     #[command(flatten)]
     view: ViewArgs,
@@ -81,6 +81,7 @@ pub(crate) fn run(args: &Args, globals: &Globals) -> Result<(), CliError> {
         )));
     }
     let file = PictureFile::create(&args.out)?;
+    file.check_size(args.view.size)?;
     let model = load::model(&args.scene, globals)?;
     if model.triangles.is_empty() {
         return Err(nothing_to_draw(args));
@@ -105,14 +106,14 @@ fn write_slice(
     let title = format!(
         "{}: slice at {name} = {}, split {}{}",
         scene_name(&args.scene),
-        readable(value),
-        args.build.split.name(),
+        exact(value),
+        args.build.strategy().name(),
         args.depth.map_or(String::new(), |depth| format!(", to depth {depth}")),
     );
     let section = Section::perpendicular(axis, value);
     let slice = Slice { section, depth, window: args.window, title: &title };
     let room = [args.view.size.width as f64, args.view.size.height as f64];
-    let corner = |p: [f32; 3]| p.map(|x| readable(x.into())).join(", ");
+    let corner = |p: [f32; 3]| p.map(exact).join(", ");
     let Some((canvas, figures)) = draw_slice(world.scene().shapes(), &slice, room) else {
         return Err(CliError::Usage(format!(
             "--slice {name}={value}: nothing of the scene is there; its box goes from ({}) to \
@@ -145,7 +146,7 @@ fn write_wireframe(
     let title = format!(
         "{}: the planes of the tree to depth {depth}, split {}",
         scene_name(&args.scene),
-        args.build.split.name()
+        args.build.strategy().name()
     );
     let canvas = draw_wireframe(&Wireframe {
         scene: world.scene().shapes(),
@@ -180,13 +181,21 @@ fn slice_plane(text: &str) -> Result<(usize, f64), String> {
     Ok((axis, value))
 }
 
-/// Reads `LEFT,RIGHT,BELOW,ABOVE`.
+/// Reads `LEFT,RIGHT,BELOW,ABOVE`; refuses what a panel could not show as it is.
 fn window(text: &str) -> Result<[[f64; 2]; 2], String> {
-    let [left, right, below, above] = crate::args::numbers::<4>(text)?;
-    if left < right && below < above {
-        Ok([[left, right], [below, above]])
+    let edges @ [left, right, below, above] = crate::args::numbers::<4>(text)?;
+    let [width, height] = [right - left, above - below];
+    if !(width > 0.0 && height > 0.0) {
+        return Err("LEFT must be less than RIGHT, and BELOW less than ABOVE".to_owned());
+    }
+    let (long, short) = (width.max(height), width.min(height));
+    let far = edges.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    if !long.is_finite() || short < 1e-3 * long {
+        Err("width and height may differ a thousandfold at most".to_owned())
+    } else if short < (1e-12 * far).max(1e-30) {
+        Err("the window is too small to tell numbers in it apart".to_owned())
     } else {
-        Err("LEFT must be less than RIGHT, and BELOW less than ABOVE".to_owned())
+        Ok([[left, right], [below, above]])
     }
 }
 
@@ -197,8 +206,12 @@ mod tests {
     #[test]
     fn windows_have_an_extent() {
         assert_eq!(window("-1,2,0,0.5"), Ok([[-1.0, 2.0], [0.0, 0.5]]));
+        assert_eq!(window("9e5,900000.01,0,0.01"), Ok([[9e5, 900_000.01], [0.0, 0.01]]));
         for bad in ["", "1,1,0,1", "0,1,2,1", "0,1,2", "0,1,0,inf"] {
             assert!(window(bad).is_err(), "{bad}");
+        }
+        for unseen in ["0,1,0,0.0001", "1,1.0000000000001,0,0.0000000000001", "0,1e-31,0,1e-31"] {
+            assert!(window(unseen).is_err(), "{unseen}");
         }
     }
 

@@ -16,7 +16,10 @@ use crate::{
 use clap::ValueEnum;
 use kdray::Scene;
 use rayon::prelude::*;
-use std::path::{Path, PathBuf};
+use std::{
+    io::{self, IsTerminal},
+    path::{Path, PathBuf},
+};
 
 /// Rays or points in memory at a time.
 const CHUNK: usize = 1 << 16;
@@ -124,6 +127,8 @@ fn answer_file<R: Row, A: Fn(&[R]) -> Vec<Answer> + Sync>(
     let answers = prepare()?;
 
     let progress = match rows.total() {
+        // A bar among the answers would spoil both.
+        _ if args.out == Path::new("-") && io::stdout().is_terminal() => Progress::unseen(globals),
         Some(total) => Progress::start("answering", total, R::MANY, globals),
         None => Progress::spin("answering", globals),
     };

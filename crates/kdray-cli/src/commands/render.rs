@@ -1,7 +1,9 @@
 //! `kdray render`: a picture by backward ray tracing.
 
 use crate::{
-    args::{FastBuildArgs, SceneArgs, ViewArgs, bits, color, crop, sample_range},
+    args::{
+        FastBuildArgs, SceneArgs, ViewArgs, bits, color, crop, positive, positive_f32, sample_range,
+    },
     build,
     cli::Globals,
     error::CliError,
@@ -105,13 +107,13 @@ struct QualityArgs {
     ambient_rays: u32,
     /// How far surfaces block ambient light, in units of the scene; without it a tenth of the
     /// diagonal
-    #[arg(long, value_name = "LENGTH")]
+    #[arg(long, value_name = "LENGTH", value_parser = positive)]
     occlusion_distance: Option<f64>,
     /// What a PNG multiplies colours by
-    #[arg(long, value_name = "FACTOR", default_value_t = RenderOptions::default().exposure)]
+    #[arg(long, value_name = "FACTOR", default_value_t = RenderOptions::default().exposure, value_parser = positive_f32)]
     exposure: f32,
     /// The cost with the last colour of a cost picture; without it the 99.5th percentile
-    #[arg(long, value_name = "COST")]
+    #[arg(long, value_name = "COST", value_parser = positive_f32)]
     heat_max: Option<f32>,
 }
 

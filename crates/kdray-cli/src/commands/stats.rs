@@ -64,7 +64,7 @@ pub(crate) fn run(args: &Args, globals: &Globals) -> Result<(), CliError> {
         None => {
             let mesh = load::mesh(&args.scene, globals)?;
             let scene = build::shapes(mesh, &args.build.options(), globals)?;
-            Figures::of(&scene, Some(args.build.split.name()), &cost)
+            Figures::of(&scene, Some(args.build.strategy().name()), &cost)
         }
     };
     if args.table.json {

@@ -14,7 +14,7 @@ use crate::{
     pictures::{PictureFile, RayPath, draw_ray_path, scene_name},
     progress,
     table::print_json,
-    wording::readable,
+    wording::{exact, readable},
 };
 use kdray::{Ray, traverse::StepRecorder};
 use kdray_render::{RenderError, View, World};
@@ -58,14 +58,17 @@ pub(crate) struct Args {
     table: TableArgs,
 }
 
+/// What has no meaning for a ray that is given.
+const OF_A_VIEW: [&str; 7] = ["size", "eye", "look_at", "up", "fov", "camera", "light"];
+
 #[derive(Debug, clap::Args)]
 #[group(required = true, multiple = false)]
 struct WhichRay {
     /// The ray: its origin and its direction, which may have any length
-    #[arg(long, value_name = "OX,OY,OZ,DX,DY,DZ", allow_hyphen_values = true, value_parser = numbers::<6>)]
+    #[arg(long, value_name = "OX,OY,OZ,DX,DY,DZ", allow_hyphen_values = true, value_parser = numbers::<6>, conflicts_with_all = OF_A_VIEW)]
     ray: Option<[f64; 6]>,
     /// The ray through the middle of this pixel of the picture, from 0,0 in the upper left corner
-    #[arg(long, value_name = "X,Y", value_parser = pixel)]
+    #[arg(long, value_name = "X,Y", value_parser = pixel, conflicts_with = "light")]
     pixel: Option<(usize, usize)>,
     /// The packet of rays through the tile of pixels that holds this one
     #[arg(long, value_name = "X,Y", value_parser = pixel)]
@@ -85,7 +88,7 @@ struct TileArgs {
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, requires = "out_3d", value_parser = numbers::<3>)]
     from: Option<[f64; 3]>,
     /// Rays a pixel of the render in the picture in space
-    #[arg(long, value_name = "N", default_value_t = 4, requires = "out_3d", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 4, requires = "out_3d", value_parser = clap::value_parser!(u32).range(1..=65536))]
     samples: u32,
 }
 
@@ -103,27 +106,37 @@ pub(crate) fn run(args: &Args, globals: &Globals) -> Result<(), CliError> {
     let hit = scene.closest_hit_traced(&ray, &mut recorder);
     let steps = recorder.steps;
 
-    if args.table.json {
-        print_json(&table::json(scene, &ray, &steps, hit))?;
-    } else {
-        output::print(table::text(scene, &ray, &steps, hit).as_bytes())?;
+    let words = ray_words(args, &ray);
+    // The picture first: whoever reads the steps may stop, as `head` does.
+    if let Some(file) = file {
+        let [o, d] = &words;
+        let (name, split) = (scene_name(&args.scene), args.build.strategy().name());
+        let title = format!("{name}: ray from ({o}) along ({d}), split {split}");
+        let path = RayPath { scene, ray: &ray, steps: &steps, hit, title: &title };
+        write_picture(file, &path, globals)?;
     }
-    let (Some(file), Some(out)) = (file, &args.out) else { return Ok(()) };
-    let [o, d] = [ray.origin, ray.direction].map(|v| v.map(readable).join(", "));
-    let title = format!(
-        "{}: ray from ({o}) along ({d}), split {}",
-        scene_name(&args.scene),
-        args.build.split.name()
-    );
-    let path = RayPath { scene, ray: &ray, steps: &steps, hit, title: &title };
-    match draw_ray_path(&path) {
+    if args.table.json {
+        print_json(&table::json(scene, &ray, &steps, hit))
+    } else {
+        output::print(table::text(scene, &ray, &words, &steps, hit).as_bytes())
+    }
+}
+
+fn write_picture(file: PictureFile, path: &RayPath<'_>, globals: &Globals) -> Result<(), CliError> {
+    match draw_ray_path(path) {
         Some(canvas) => file.write(canvas, 1.5),
         None => {
-            let line = format!("the ray misses the scene's box: {} is not drawn", out.display());
-            progress::say(globals, &line);
+            let out = file.path().display();
+            progress::say(globals, &format!("the ray misses the scene's box: {out} is not drawn"));
             Ok(())
         }
     }
+}
+
+/// Origin and direction of the ray: as they were given, or rounded if they were computed.
+fn ray_words(args: &Args, ray: &Ray) -> [String; 2] {
+    let number = if args.which.ray.is_some() { exact } else { readable };
+    [ray.origin, ray.direction].map(|v| v.map(number).join(", "))
 }
 
 fn ray(args: &Args, world: &World) -> Result<Ray, CliError> {

@@ -48,7 +48,8 @@ struct Finding {
 /// Builds and checks.
 pub(crate) fn run(args: &Args, globals: &Globals) -> Result<(), CliError> {
     let limits = &args.build.limits;
-    let given = limits.given();
+    let split = args.build.split.map(|_| "--split");
+    let given = split.into_iter().chain(limits.given());
     if let Some(scene) = tree_file::scene(&args.scene, Trust::Yes, given, limits, globals)? {
         let checked = verify(&scene, args, globals);
         return tell(checked, scene.shapes(), args);

@@ -1,7 +1,7 @@
 //! Pictures as files: SVG as drawn, or PNG.
 
 use super::Canvas;
-use crate::{error::CliError, output::Output};
+use crate::{args::Size, error::CliError, output::Output};
 use resvg::{tiny_skia, usvg};
 use std::{
     io::Write,
@@ -29,6 +29,25 @@ impl PictureFile {
     pub(crate) fn create(path: &Path) -> Result<Self, CliError> {
         let format = Format::of(path)?;
         Ok(Self { path: path.to_owned(), output: Output::create(path)?, format })
+    }
+
+    /// Refuses a `--size` that makes a PNG too large, before the work.
+    pub(crate) fn check_size(&self, size: Size) -> Result<(), CliError> {
+        let Size { width, height } = size;
+        // About as much as there is around the picture: key, scale and title.
+        let [across, down] = [(width as f64 + 128.0).max(640.0), height as f64 + 256.0];
+        if self.format == Format::Svg || across * down <= MAX_PIXELS {
+            return Ok(());
+        }
+        Err(CliError::Usage(format!(
+            "--size {width}x{height}: with key and scale these are more pixels than a PNG may have, \
+             {MAX_PIXELS}; choose a smaller size, or a name that ends in .svg"
+        )))
+    }
+
+    /// The path that it will have.
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
     }
 
     /// Writes the picture. A PNG has `scale` pixels for each one of the canvas, across and down.

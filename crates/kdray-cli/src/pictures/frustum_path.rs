@@ -98,20 +98,20 @@ fn content(
             group = group.add(panel.rectangle(&rect, 1.0).set("class", class).set("fill", fill));
         }
     }
-    let place = |ends: &[[f64; 2]; 2]| ends.map(|p| panel.place(p));
     for &(cell, axis, split) in &fates.splits {
         if let Some(ends) = split_ends(section, &cell, axis, split) {
             let width = (2.2 - 0.15 * f64::from(cell.depth)).max(0.7);
-            group = group.add(lines([place(&ends)], Stroke::new(palette::AXES[axis], width)));
+            let stroke = Stroke::new(palette::AXES[axis], width);
+            group = group.add(lines(panel.line(&ends), stroke));
         }
     }
     let near = |ends: &&[[f64; 2]; 2]| Rect::around(ends).meets(&panel.shown());
     let triangles = cut_triangles(it.scene, section);
-    let context = triangles.iter().filter(near).map(place);
+    let context = triangles.iter().filter(near).filter_map(|ends| panel.line(ends));
     group = group.add(lines(context, Stroke::new(palette::GREY, 0.9)));
     let mesh = it.scene.primitives();
     let tested = fates.triangles.iter().filter_map(|&id| section.triangle(&mesh.corners(id)));
-    let tested: Vec<_> = tested.map(|ends| place(&ends)).collect();
+    let tested = tested.filter_map(|ends| panel.line(&ends));
     group = group.add(lines(tested, Stroke::new(palette::BLACK, 2.0)));
     group = group.add(frame(panel, root));
     fates
@@ -134,10 +134,9 @@ fn kinds(fates: &Fates) -> [(&[Cell<3>], &'static str, &'static str); 4] {
 /// A sub-frustum as the section cuts it.
 fn polygon(section: &Section, panel: &Panel, frustum: &Frustum, end: f64) -> Option<Polygon> {
     let corners = outline::cut(section, frustum, end);
-    let points: Vec<String> = corners
-        .iter()
-        .map(|&corner| panel.place(corner).map(|x| format!("{x:.2}")).join(","))
-        .collect();
+    let points = panel.polygon(&corners).into_iter();
+    let points: Vec<String> =
+        points.map(|point| point.map(|x| format!("{x:.2}")).join(",")).collect();
     (points.len() > 2).then(|| {
         let polygon = Polygon::new().set("points", points.join(" ")).set("class", "frustum");
         let polygon = polygon.set("fill", palette::BLACK).set("fill-opacity", 0.06);

@@ -34,11 +34,16 @@ pub(crate) use section::Section;
 pub(crate) use slice::{Slice, draw_slice};
 pub(crate) use wireframe::{LineColor, Wireframe, draw_wireframe};
 
-/// What a picture calls the scene: its file's name.
+/// What a picture calls the scene: its file's name, without what XML does not allow.
 pub(crate) fn scene_name(args: &SceneArgs) -> String {
     match args.scene.as_deref() {
         None => "built-in scene".into(),
         Some(path) if path == Path::new("-") => "standard input".into(),
-        Some(path) => path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned(),
+        Some(path) => {
+            let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+            let is_allowed = |c: &char| !c.is_control() && !matches!(c, '\u{fffe}' | '\u{ffff}');
+            let allowed = |c| Some(c).filter(is_allowed).unwrap_or(char::REPLACEMENT_CHARACTER);
+            name.chars().map(allowed).collect()
+        }
     }
 }

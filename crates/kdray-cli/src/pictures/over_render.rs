@@ -1,6 +1,7 @@
 //! Straight lines over a render of the scene: what surfaces hide of them is told by rays.
 
 use super::canvas::{Canvas, window};
+use super::panel::Rect;
 use super::projector::Projector;
 use base64::{Engine, prelude::BASE64_STANDARD};
 use glam::DVec3;
@@ -79,7 +80,8 @@ impl OverRender<'_> {
         let diagonal = self.scene.tree().bounds().diagonal();
         let Some(clipped) = projector.clip(ends, 1e-3 * diagonal) else { return Vec::new() };
         let sheet = clipped.map(|p| projector.place(p));
-        let Some(range) = within(sheet, self.size) else { return Vec::new() };
+        let picture = Rect { across: [0.0, self.size[0]], up: [0.0, self.size[1]] };
+        let Some(range) = picture.part_of(&sheet) else { return Vec::new() };
         // Equal steps in the picture; perspective turns them into steps on the edge.
         let length = (sheet[1][0] - sheet[0][0]).hypot(sheet[1][1] - sheet[0][1]);
         let count = ((range[1] - range[0]) * length / PIECE).ceil().max(1.0);
@@ -105,23 +107,6 @@ impl OverRender<'_> {
         let almost = 1.0 - 2e-3 * (diagonal / (p - from).length()).min(100.0);
         !self.scene.any_hit(&Ray::through(from, p).with_interval(0.0, almost))
     }
-}
-
-/// The part of a line, from 0 to 1, that lies in the picture.
-fn within([a, b]: [[f64; 2]; 2], size: [f64; 2]) -> Option<[f64; 2]> {
-    let mut range = [0.0_f64, 1.0_f64];
-    for k in 0..2 {
-        let step = b[k] - a[k];
-        if step == 0.0 {
-            if a[k] < 0.0 || a[k] > size[k] {
-                return None;
-            }
-            continue;
-        }
-        let (l, h) = (-a[k] / step, (size[k] - a[k]) / step);
-        range = [range[0].max(l.min(h)), range[1].min(l.max(h))];
-    }
-    (range[0] < range[1]).then_some(range)
 }
 
 /// The edges of a box; of one that is flat on an axis each once.

@@ -84,21 +84,20 @@ fn content(
         }
     }
     let near = |ends: &&[[f64; 2]; 2]| Rect::around(ends).meets(&panel.shown());
-    let place = |ends: &[[f64; 2]; 2]| ends.map(|p| panel.place(p));
-    let context = triangles.iter().filter(near).map(place);
+    let context = triangles.iter().filter(near).filter_map(|ends| panel.line(ends));
     group = group.add(lines(context, Stroke::new(palette::GREY, 0.9)));
     for split in &path.splits {
         if let Some(ends) = split_ends(section, &split.cell, split.axis, split.split) {
             let width = (2.8 - 0.2 * f64::from(split.cell.depth)).max(1.0);
             let stroke = Stroke::new(palette::AXES[split.axis], width);
-            group = group.add(lines([place(&ends)], stroke));
+            group = group.add(lines(panel.line(&ends), stroke));
         }
     }
     let mesh = it.scene.primitives();
     let mut tested: Vec<u32> = path.tested.iter().copied().collect();
     tested.sort_unstable();
     let cut = tested.iter().filter_map(|&id| section.triangle(&mesh.corners(id)));
-    let cut: Vec<_> = cut.map(|ends| place(&ends)).collect();
+    let cut = cut.filter_map(|ends| panel.line(&ends));
     group = group.add(lines(cut, Stroke::new(palette::BLACK, 2.0)));
     group = group.add(frame(panel, root));
     marks_along_ray(it, section, path, panel).into_iter().fold(group, Group::add)

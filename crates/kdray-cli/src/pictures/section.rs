@@ -83,15 +83,20 @@ impl Section {
         self.up
     }
 
-    /// The axis shown across, if it is one.
+    /// The axis shown across, if it is one, in world coordinates.
     pub(crate) fn across_axis(&self) -> Option<usize> {
-        (0..3).find(|&axis| self.across[axis].abs() == 1.0)
+        (0..3).find(|&axis| self.across[axis] == 1.0 && self.origin[axis] == 0.0)
     }
 
     /// The point of the section next to `p`: across and up.
     pub(crate) fn place(&self, p: [f64; 3]) -> [f64; 2] {
         let across = (0..3).map(|i| (p[i] - self.origin[i]) * self.across[i]).sum();
         [across, p[self.up]]
+    }
+
+    /// What a direction adds across and up.
+    pub(crate) fn direction(&self, d: [f64; 3]) -> [f64; 2] {
+        [(0..3).map(|i| d[i] * self.across[i]).sum(), d[self.up]]
     }
 
     /// The rectangle in which the plane cuts `aabb`.
@@ -223,12 +228,23 @@ mod tests {
     fn a_section_through_a_ray_holds_it() {
         let ray = Ray::new([1.0, 2.0, 3.0], [0.0, 6.0, -8.0]);
         let section = Section::through(&ray);
-        assert_eq!((section.up(), section.across_axis()), (1, Some(2)));
+        assert_eq!(section.up(), 1);
         for t in [0.0, 0.5, 2.0] {
             let p = ray.at(t);
             assert_eq!(section.side(p), 0.0);
             assert_eq!(section.place(p), [8.0 * t, p[1]]);
         }
+    }
+
+    #[test]
+    fn across_is_an_axis_only_where_it_shows_world_coordinates() {
+        let across =
+            |origin, direction| Section::through(&Ray::new(origin, direction)).across_axis();
+        assert_eq!(across([1.0, 2.0, 0.0], [0.0, 6.0, 8.0]), Some(2));
+        assert_eq!(across([1.0, 2.0, 3.0], [0.0, 6.0, 8.0]), None, "counted from the origin");
+        assert_eq!(across([1.0, 2.0, 0.0], [0.0, 6.0, -8.0]), None, "counted downwards");
+        assert_eq!(across([1.0, 2.0, 0.0], [3.0, 6.0, 8.0]), None, "no axis");
+        assert_eq!(Section::perpendicular(1, 3.0).across_axis(), Some(0));
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! A slice through the tree: leaves, splitting planes and triangles cut by one plane (S5 to S10).
 
-use super::canvas::{Anchor, Canvas, Stroke, lines};
+use super::canvas::{Anchor, Canvas, Point, Stroke, lines};
 use super::legend::{self, Entry};
 use super::panel::{Panel, Rect};
 use super::section::SplitLine;
@@ -73,7 +73,7 @@ pub(crate) fn draw_slice(
     for path in split_lines(&panel, &tree.splits) {
         content = content.add(path);
     }
-    let cuts = triangles.iter().map(|ends| ends.map(|p| panel.place(p)));
+    let cuts = triangles.iter().filter_map(|ends| panel.line(ends));
     let outline = Stroke::new(palette::BLACK, 1.2);
     panel.show(&mut canvas, content.add(lines(cuts, outline)).add(frame(&panel, &root)));
     panel.scales(&mut canvas, &across_name(section), palette::AXIS_NAMES[section.up()]);
@@ -89,10 +89,9 @@ pub(super) fn cut_triangles(scene: &ShapeScene, section: &Section) -> Vec<[[f64;
 
 /// The splitting planes, coloured by axis; the upper levels of the tree stand out.
 fn split_lines(panel: &Panel, splits: &[SplitLine]) -> Vec<svg::node::element::Element> {
-    let mut kinds: BTreeMap<(u32, usize), Vec<_>> = BTreeMap::new();
+    let mut kinds: BTreeMap<(u32, usize), Vec<[Point; 2]>> = BTreeMap::new();
     for split in splits {
-        let ends = split.ends.map(|p| panel.place(p));
-        kinds.entry((split.depth.min(8), split.axis)).or_default().push(ends);
+        kinds.entry((split.depth.min(8), split.axis)).or_default().extend(panel.line(&split.ends));
     }
     let stroke = |(depth, axis): (u32, usize)| {
         Stroke::new(palette::AXES[axis], 2.6 - 0.24 * f64::from(depth))

@@ -3,7 +3,6 @@
 use super::canvas::{Anchor, Canvas, Point, Stroke, line, rectangle};
 use super::palette;
 use super::panel::ticks;
-use crate::wording::readable;
 
 const ROW: f64 = 15.0;
 const LEFT: f64 = 34.0;
@@ -62,9 +61,10 @@ pub(super) fn draw(
     }
     let grey = Stroke::new(palette::GREY, 1.0);
     canvas.add(line([left, bottom], [right, bottom], grey));
-    for t in ticks([from, to], (right - left) / 90.0) {
-        canvas.add(line([place(t), bottom], [place(t), bottom + 5.0], grey));
-        canvas.text([place(t), bottom + 18.0], Anchor::Middle, 12.0, &readable(t));
+    for tick in ticks([from, to], (right - left) / 90.0) {
+        let x = place(tick.value);
+        canvas.add(line([x, bottom], [x, bottom + 5.0], grey));
+        canvas.text([x, bottom + 18.0], Anchor::Middle, 12.0, &tick.label);
     }
     canvas.text([(left + right) / 2.0, bottom + 34.0], Anchor::Middle, 13.0, "t");
     if let Some(t) = hit.filter(|t| (from..=to).contains(t)) {

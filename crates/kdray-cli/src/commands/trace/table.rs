@@ -2,7 +2,7 @@
 
 use crate::{
     table::columns,
-    wording::{counted, readable},
+    wording::{counted, exact, readable},
 };
 use kdray::{
     Hit, Ray, ShapeScene, Side,
@@ -22,15 +22,20 @@ fn case_words(step: &SplitStep) -> &'static str {
     }
 }
 
-/// The steps for people.
-pub(super) fn text(scene: &ShapeScene, ray: &Ray, steps: &[Step], hit: Option<Hit>) -> String {
-    let point = |p: [f64; 3]| p.map(readable).join(", ");
-    let mut text = format!("ray    E = ({}), D = ({})\n", point(ray.origin), point(ray.direction));
+/// The steps for people; `[origin, direction]` of the ray in words.
+pub(super) fn text(
+    scene: &ShapeScene,
+    ray: &Ray,
+    [origin, direction]: &[String; 2],
+    steps: &[Step],
+    hit: Option<Hit>,
+) -> String {
+    let mut text = format!("ray    E = ({origin}), D = ({direction})\n");
     let bounds = scene.tree().bounds();
     if bounds.is_empty() {
         return text + "box    empty: the scene has no triangles\nno hit\n";
     }
-    let corner = |p: [f32; 3]| point(p.map(f64::from));
+    let corner = |p: [f32; 3]| p.map(exact).join(", ");
     text += &format!("box    ({}) to ({})\n", corner(bounds.min), corner(bounds.max));
     match steps.first() {
         Some(Step::Root(Some(interval))) => {
@@ -52,7 +57,7 @@ pub(super) fn text(scene: &ShapeScene, ray: &Ray, steps: &[Step], hit: Option<Hi
             readable(hit.u),
             readable(hit.v),
             side(hit.side),
-            point(ray.at(hit.t)),
+            ray.at(hit.t).map(readable).join(", "),
         ),
     }
 }
@@ -109,7 +114,7 @@ fn misses(ids: &[u32]) -> String {
 }
 
 fn split_row(it: &SplitStep) -> Vec<String> {
-    let plane = format!("{} = {}", AXES[it.axis], readable(it.split.into()));
+    let plane = format!("{} = {}", AXES[it.axis], exact(it.split));
     row(
         case_words(it),
         [it.node.to_string(), plane, readable(it.t_near), readable(it.t_split)],

@@ -61,19 +61,15 @@ pub(super) fn run(args: &Args, pixel: (usize, usize), globals: &Globals) -> Resu
     let tile = Tile::new(args, pixel)?;
     let rays = tile.rays(&view, args);
     let traced = TileTrace::new(tile, world.scene().shapes(), &rays)?;
-    if args.table.json {
-        print_json(&tile_json::json(&traced))?;
-    } else {
-        output::print(tile_table::text(&traced).as_bytes())?;
-    }
     let [x, y] = tile.at;
     let title = format!(
         "{}: packet of {} from pixel {x},{y}, split {}",
         scene_name(&args.scene),
         counted(rays.len(), "ray", "rays"),
-        args.build.split.name()
+        args.build.strategy().name()
     );
     let ray = super::ray_through(&view, args, pixel);
+    // Pictures first: whoever reads the steps may stop, as `head` does.
     if let Some(file) = file {
         write_path(file, &traced, &ray, &title, globals)?;
     }
@@ -84,7 +80,11 @@ pub(super) fn run(args: &Args, pixel: (usize, usize), globals: &Globals) -> Resu
             Backdrop { world: &world, camera: &camera, view, size: SIZE_IN_SPACE, samples };
         write_view(file, &traced, &camera, &backdrop.render(out, globals)?, &title)?;
     }
-    Ok(())
+    if args.table.json {
+        print_json(&tile_json::json(&traced))
+    } else {
+        output::print(tile_table::text(&traced).as_bytes())
+    }
 }
 
 fn write_view(
@@ -124,7 +124,7 @@ fn write_path(
     match draw_frustum_path(&path) {
         Some(canvas) => file.write(canvas, 1.5),
         None => {
-            progress::say(globals, "the rays miss the scene's box: nothing is drawn");
+            progress::say(globals, "no frustum meets the scene's box: nothing is drawn");
             Ok(())
         }
     }

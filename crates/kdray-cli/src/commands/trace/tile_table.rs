@@ -4,7 +4,7 @@ use super::table::AXES;
 use super::tile::{Tile, TileTrace};
 use crate::{
     table::columns,
-    wording::{counted, readable},
+    wording::{counted, exact, readable},
 };
 use kdray::traverse::{
     Frustum, LaneMask, PacketDecision, PacketLeafStep, PacketSplitStep, PacketStep,
@@ -32,9 +32,9 @@ pub(super) fn text(it: &TileTrace<'_>) -> String {
     }
     let frusta: Vec<&Frustum> = frusta(it).collect();
     let Some(first) = frusta.first() else {
-        return text + "       the rays miss the box\nno hit\n";
+        return text + &without_frusta(it);
     };
-    let corner = |p: [f32; 3]| p.map(|x| readable(x.into())).join(", ");
+    let corner = |p: [f32; 3]| p.map(exact).join(", ");
     text += &format!("box    ({}) to ({})\n", corner(bounds.min), corner(bounds.max));
     text += &format!(
         "bound  {} along {}, t is the depth on that axis\n\n",
@@ -46,6 +46,14 @@ pub(super) fn text(it: &TileTrace<'_>) -> String {
              leaves it.\nfrusta: how many are in the node, and how many of them may be in its near \
              and in its far\nchild. waiting: how many nodes are on the stack after the step.\n\n";
     text + &summary(it) + "\n" + &hits(it)
+}
+
+/// What came of rays for which nothing was done together.
+fn without_frusta(it: &TileTrace<'_>) -> String {
+    match it.counters.left {
+        0 => "       the rays miss the box\nno hit\n".to_owned(),
+        left => format!("bound  none: {left} left to be answered alone\n") + &hits(it),
+    }
 }
 
 /// What the packet cost, and what its rays cost one by one.
@@ -157,7 +165,7 @@ fn split_row(it: &PacketSplitStep) -> Vec<String> {
     vec![
         decision_words(it.decision()).to_owned(),
         it.node.to_string(),
-        format!("{} = {}", AXES[it.axis], readable(it.split.into())),
+        format!("{} = {}", AXES[it.axis], exact(it.split)),
         readable(it.t_near),
         readable(it.t_far),
         format!("{lanes}: {near}, {far}"),

@@ -108,10 +108,10 @@ fn square(rect: &Rect) -> Rect {
 /// The interval of t, within the ray's own, in which the ray is seen.
 pub(super) fn visible_t(section: &Section, ray: &Ray, shown: &Rect) -> Option<[f64; 2]> {
     let start = section.place(ray.origin);
-    let end = section.place(ray.at(1.0));
+    let steps = section.direction(ray.direction);
     let mut t = [ray.interval.t_min, ray.interval.t_max];
     for (k, range) in [shown.across, shown.up].into_iter().enumerate() {
-        let step = end[k] - start[k];
+        let step = steps[k];
         if step != 0.0 {
             let (l, h) = ((range[0] - start[k]) / step, (range[1] - start[k]) / step);
             t = [t[0].max(l.min(h)), t[1].min(l.max(h))];
@@ -119,5 +119,21 @@ pub(super) fn visible_t(section: &Section, ray: &Ray, shown: &Rect) -> Option<[f
             return None;
         }
     }
-    (t[0] < t[1]).then_some(t)
+    // A ray of next to no direction reaches the panel beyond all numbers.
+    (t[0] < t[1] && t[1].is_finite()).then_some(t)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn short_directions_are_seen_as_long_ones() {
+        let shown = Rect { across: [-1.0, 1.0], up: [-1.0, 1.0] };
+        for length in [1.0, 1e-16, 1e-200] {
+            let ray = Ray::new([3.0, 0.5, 0.0], [-length, 0.0, 0.0]);
+            let [from, to] = visible_t(&Section::through(&ray), &ray, &shown).unwrap();
+            assert!((from * length - 0.0).abs() < 1e-12 && (to * length - 1.0).abs() < 1e-12);
+        }
+    }
 }

@@ -82,7 +82,7 @@ impl HitWriter {
     /// Completes the output.
     pub(crate) fn finish(self) -> Result<(), CliError> {
         let (written, output) = match self {
-            Self::Npz(npz, mut output) => (npz.finish(output.file()), output),
+            Self::Npz(npz, mut output) => (npz.finish(&mut output), output),
             Self::Csv(mut csv, output) => (csv.flush(), output),
             Self::Stdout(mut csv) => return csv.flush().map_err(CliError::Stdout),
         };

@@ -9,7 +9,7 @@ use crate::output::Output;
 use kdray::{ClosestPoint, Hit};
 use std::{
     fs::File,
-    io::{self, BufWriter, Write},
+    io::{self, BufWriter, Seek, Write},
 };
 use zip::{CompressionMethod, ZipWriter, write::SimpleFileOptions};
 
@@ -131,7 +131,18 @@ impl NpzHits {
     }
 
     /// Gathers the arrays in an archive.
-    pub(super) fn finish(self, file: &mut File) -> io::Result<()> {
+    pub(super) fn finish(self, output: &mut Output) -> io::Result<()> {
+        if output.file().stream_position().is_ok() {
+            return self.gather(output.file());
+        }
+        // The sizes at the front of an archive are known last; a pipe does not go back to them.
+        let mut whole = output.scratch()?;
+        self.gather(&mut whole)?;
+        whole.rewind()?;
+        io::copy(&mut whole, output.file()).map(drop)
+    }
+
+    fn gather(self, file: &mut File) -> io::Result<()> {
         let mut archive = ZipWriter::new(BufWriter::new(file));
         let options = SimpleFileOptions::default()
             .compression_method(CompressionMethod::Stored)
