@@ -153,6 +153,7 @@ fn assert_promised<T: Precision>(
 ) {
     let promise = Promise::of(case);
     let hits = exact.iter().flatten().count();
+    assert!(hits > 0, "case {:?}: nothing was hit", case.name);
     let most = promise.most_wrong(hits);
     let told = |name, wrong| format!("case {:?}, {name}: {wrong} wrong, {hits} hits", case.name);
     for (name, found) in &answers.closest {

@@ -8,8 +8,8 @@ use std::io::{self, Write};
 use std::ops::AddAssign;
 use std::sync::{Mutex, PoisonError};
 
-/// The set of a name. `None` if this processor does not have it: then this says so, once, and no more, with the
-/// environment variable `CI` neither, for processors differ.
+/// The set of a name. `None` if this processor does not have it: then this says so, once. It is no failure, not even
+/// with the environment variable `CI`, for processors differ.
 pub fn named(name: &str) -> Option<InstructionSet> {
     let found = InstructionSet::of_name(name);
     found.inspect_err(|unknown| say_once(&format!("skipped: tests of {name}: {unknown}"))).ok()

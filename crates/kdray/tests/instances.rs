@@ -345,9 +345,25 @@ fn copies_far_from_zero_are_told_apart() {
         assert!(!scene.any_hit(&Ray::new([x + 0.25, y, 9.0], [0.0, 0.0, -1.0])));
     }
     // Beyond f32, too.
-    let far = Instance::of(0).moved([1e39, 0.0, 0.0]);
-    let beyond = InstancedScene::build(scene.geometries().to_vec(), vec![far]).unwrap();
-    assert_eq!(beyond.count(&Ray::new([1e39, 0.25, 9.0], [0.0, 0.0, -1.0])), 2);
+    far_copies_are_there::<f32>();
+    far_copies_are_there::<f64>();
+}
+
+fn far_copies_are_there<T: Precision>() {
+    let cube = scene(cast::<T>(&cube(), [0.0; 3]));
+    let nothing = scene(TriangleMesh::<T>::default());
+    for place in [1e39, 1e60, 1e300] {
+        for geometries in [vec![cube.clone()], vec![cube.clone(), nothing.clone()]] {
+            let copies =
+                (0..geometries.len() as u32).map(|id| Instance::of(id).moved([place, 0.0, 0.0]));
+            let there = InstancedScene::build(geometries, copies.collect()).unwrap();
+            assert_eq!(
+                there.count(&Ray::new([place, 0.25, 9.0], [0.0, 0.0, -1.0])),
+                2,
+                "{place:e}"
+            );
+        }
+    }
 }
 
 #[test]
@@ -363,6 +379,7 @@ fn a_build_can_be_watched_stopped_and_limited() {
         })
         .map(|_| ())
     };
+    assert_eq!(InstancedScene::<f32>::peak_bytes(usize::MAX), u64::MAX);
     let needed = InstancedScene::<f32>::peak_bytes(20_000);
     assert_eq!(build(Some(needed), 1.0), Ok(()));
     let told_to_the_end = std::mem::take(&mut *told.lock().unwrap());

@@ -28,6 +28,14 @@ fn they_can_be_shared_and_survive_panics() {
 }
 
 #[test]
+fn hits_that_are_left_can_be_looked_at_twice() {
+    let scene = Scene::build(sheet(4), &BuildOptions::default()).unwrap();
+    let mut hits = scene.all_hits(&Ray::new([-0.5, 0.25, -0.5], [1.0, 0.0, 0.25]));
+    let ahead = hits.clone().count();
+    assert_eq!((ahead, hits.next().is_some(), hits.count()), (1, true, 0));
+}
+
+#[test]
 fn they_are_printed_in_few_words() {
     let scene = Scene::build(sheet(100), &BuildOptions::default()).unwrap();
     let copies = InstancedScene::build(vec![scene.clone()], vec![Instance::of(0)]).unwrap();

@@ -14,7 +14,8 @@ use num_traits::ToPrimitive;
 /// Differences, lengths, products and sums of a solid angle have fewer than thirty roundings.
 const ROUNDINGS: f64 = 32.0 / (1_u64 << 53) as f64;
 
-/// An angle whose sine and cosine, times the same length, are less may be off by more than a millionth.
+/// Where sine and cosine, times their common length, are both shorter than this, the angle may be off by more than a
+/// millionth.
 const SHORT: f64 = 1e6 * ROUNDINGS;
 
 /// What is known of a mesh.

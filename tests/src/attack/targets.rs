@@ -89,6 +89,8 @@ fn in_f64() -> Vec<Target<f64>> {
     };
     vec![
         of("f64: torus, bent", by(torus(), &bent)),
+        // Of so many digits that edges are rounded.
+        of("f64: torus, in thirds", by(torus(), &|p| p.map(|x| x / 3.0))),
         of("f64: torus, a metre in UTM", meshes::placed(&torus(), 1.0, UTM)),
         of("f64: cubes, a millimetre in UTM", meshes::placed(&meshes::boxes(3), 1e-3, UTM)),
         of("f64: cubes as of f32", meshes::in_f64(&meshes::boxes(3))),
@@ -114,6 +116,10 @@ fn in_f64() -> Vec<Target<f64>> {
         ),
         of("f64: fan of needles", by(soup_of(&meshes::spindle(100, 1e-5)), &bent)),
         of("f64: soup", by(meshes::soup(300, [0.0; 3], 1.0, 5), &bent)),
+        of(
+            "f64: soup, in thirds",
+            by(meshes::soup(300, [0.0; 3], 1.0, 6), &|p| p.map(|x| x / 3.0)),
+        ),
         of(
             "f64: soup, a metre in UTM",
             meshes::placed(&meshes::soup(200, [0.0; 3], 1.0, 7), 1.0, UTM),

@@ -6,9 +6,9 @@ use super::{instructions, refusals};
 use glam::{DAffine3, DVec3};
 use kdray::{Instance, InstanceHit, InstancedScene, InstructionSet, Precision, Ray, Scene};
 
-/// How far away rays may begin to be carried well, in largest coordinates over how unevenly a matrix stretches: less
-/// than the 2^30 that are documented.
-const REACH: f64 = (1 << 28) as f64;
+/// How far away rays may begin to be carried well, in sizes of the scene over how unevenly a matrix stretches: less
+/// than the 2^22 that are documented.
+const REACH: f64 = (1 << 20) as f64;
 
 /// Runs an input.
 pub fn run(data: &[u8]) {
@@ -125,7 +125,7 @@ fn carried<T: Precision>(
         direction: to_object.transform_vector3(ray.direction.into()).into(),
         interval: ray.interval,
     };
-    let reach = REACH * largest(scene, geometry, &to_world) / (norm(&to_world) * norm(&to_object));
+    let reach = REACH * size(scene) / (norm(&to_world) * norm(&to_object));
     let begins = DVec3::from(scene.tree_space().point(ray.origin));
     let is_plain = |way: [f64; 3]| (1e-250..1e250).contains(&DVec3::from(way).abs().max_element());
     let is_near = begins.abs().max_element() <= reach;
@@ -141,22 +141,11 @@ fn inverse(to_world: &DAffine3) -> DAffine3 {
     DAffine3 { matrix3, translation: -(matrix3 * to_world.translation) }
 }
 
-/// The largest coordinate that counts: of an instance of a mesh in f32, and of all of the scene in f64.
-fn largest<T: Precision>(
-    scene: &InstancedScene<T>,
-    geometry: &Scene<T>,
-    to_world: &DAffine3,
-) -> f64 {
-    if !T::FITS_TREE {
-        let bounds = scene.tree().bounds();
-        let all = bounds.min.into_iter().chain(bounds.max);
-        return all.fold(0.0, |most, x| most.max(f64::from(x).abs()));
-    }
-    let mesh = geometry.mesh();
-    let corners = (0..mesh.triangles().len() as u32).flat_map(|id| mesh.corners(id));
-    let placed =
-        corners.map(|p| to_world.transform_point3(p.map(T::to_f64).into()).abs().max_element());
-    placed.fold(0.0, f64::max)
+/// The scene's size, as the tree over it sees it.
+fn size<T: Precision>(scene: &InstancedScene<T>) -> f64 {
+    let bounds = scene.tree().bounds();
+    let all = bounds.min.into_iter().chain(bounds.max);
+    all.fold(0.0, |most, x| most.max(f64::from(x).abs()))
 }
 
 fn check_hit<T: Precision>(scene: &InstancedScene<T>, ray: &Ray, found: &InstanceHit) {

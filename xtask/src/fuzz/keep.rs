@@ -74,9 +74,9 @@ fn cut(folder: &Path) -> io::Result<u64> {
 }
 
 /// Which inputs of rising sizes are kept: the most that there is room for if they are taken evenly, so that large ones
-/// are not left out for being large. The largest is among them.
+/// are not left out for being large. The largest that fits is among them.
 fn chosen(sizes: &[u64]) -> Vec<usize> {
-    let count = sizes.len();
+    let count = sizes.partition_point(|&size| size <= MOST_BYTES);
     let evenly = |most: usize| (0..most).map(move |i| (i + 1) * count / most - 1);
     let fits = |&most: &usize| evenly(most).map(|index| sizes[index]).sum::<u64>() <= MOST_BYTES;
     let most = (1..=count.min(MOST_INPUTS)).rev().find(fits);
@@ -106,5 +106,6 @@ mod tests {
     #[test]
     fn what_is_too_large_alone_is_not_kept() {
         assert_eq!(chosen(&[MOST_BYTES + 1]), [0; 0]);
+        assert_eq!(chosen(&[1, 2, MOST_BYTES + 1]), [0, 1]);
     }
 }

@@ -16,15 +16,16 @@ pub enum BuildError {
     /// More memory would be needed than the options allow.
     #[error(
         "the build needs about {} GB of memory, but {} GB is the limit; take the preset fast, \
-         split the mesh, or raise the limit",
+         split the mesh, place fewer copies, or raise the limit",
         gigabytes([*needed, *limit])[0],
         gigabytes([*needed, *limit])[1]
     )]
     Memory {
         /// How many bytes it is expected to take: [`BuildOptions::peak_bytes`], or once the canonical
-        /// tree is there, what both trees take.
+        /// tree is there, what both trees take; of copies [`InstancedScene::peak_bytes`].
         ///
         /// [`BuildOptions::peak_bytes`]: super::BuildOptions::peak_bytes
+        /// [`InstancedScene::peak_bytes`]: crate::InstancedScene::peak_bytes
         needed: u64,
         /// [`BuildOptions::memory_limit`].
         ///

@@ -16,7 +16,7 @@ pub type SharedBytes = Arc<dyn AsRef<[u8]> + Send + Sync>;
 /// Bytes that a scene lies in.
 pub(crate) struct Source(pub(crate) SharedBytes);
 
-/// As of [`Store`].
+/// For the reason given at [`Store`].
 impl std::panic::UnwindSafe for Source {}
 impl std::panic::RefUnwindSafe for Source {}
 

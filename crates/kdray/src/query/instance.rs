@@ -69,10 +69,8 @@ pub enum InstanceError {
     /// not the identity to 2^-26.
     #[error("the matrix of instance {0} cannot be inverted; give one that flattens nothing")]
     Singular(usize),
-    /// A copy lies beyond the largest f64, or its matrix stretches so unevenly that rounding may put it anywhere.
-    #[error(
-        "instance {0} lies beyond the range of f64, or is stretched so unevenly that rounding may put it anywhere; place it nearer to the origin, or stretch it more evenly"
-    )]
+    /// A copy, or what rounding may make of its place, lies beyond the largest f64.
+    #[error("instance {0} lies beyond the range of f64; place it nearer to the origin")]
     OutOfRange(usize),
     /// There are 2^30 instances or more.
     #[error("there are {0} instances, but at most 1073741823 fit one tree; make fewer")]
@@ -108,7 +106,7 @@ impl InstanceHit {
 /// from far away, see [`InstancedScene`].
 ///
 /// [`InstancedScene`]: super::InstancedScene
-const WIDENED: f64 = 1.0 / (1 << 20) as f64;
+const WIDENED: f64 = 1.0 / (1 << 28) as f64;
 
 /// By how much the matrix times its inverse may differ from the identity.
 const INVERSE_ERROR: f64 = 1.0 / (1 << 26) as f64;
@@ -167,15 +165,13 @@ impl Place {
         }
     }
 
-    /// A box in the tree over all instances that rays pass through which hit this one; `None` if f32
-    /// cannot say it.
-    pub(super) fn bounds(&self, space: &TreeSpace) -> Option<Aabb<3>> {
+    /// A box in the tree over all instances that rays pass through which hit this one.
+    pub(super) fn bounds(&self, space: &TreeSpace) -> Aabb<3> {
         let [low, high] = [self.low, self.high].map(|p| DVec3::from(space.point(p.into())));
         let wider = WIDENED * f64::from(TreeSpace::FARTHEST) + self.error * space.scale();
         let min = (low - wider).to_array().map(|x| (x as f32).next_down());
         let max = (high + wider).to_array().map(|x| (x as f32).next_up());
-        let is_finite = min.iter().chain(&max).all(|x| x.is_finite());
-        is_finite.then_some(Aabb { min, max })
+        Aabb { min, max }
     }
 }
 

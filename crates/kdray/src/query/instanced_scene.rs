@@ -19,8 +19,8 @@ use thiserror::Error;
 /// A ray is carried into the space of each instance it may meet, by the inverse of the matrix in f64, and
 /// is answered there as by [`Scene`]: exactly, for the carried ray. An instance that is not moved is
 /// met exactly; carrying rounds the ray by some 2^-52 of the distance between its origin and the instance, times
-/// how unevenly the matrix stretches. So rays may come from up to 2^30 times the scene's size away, divided
-/// by that; from farther, whether a ray is told to meet the rim of an instance may depend on the tree.
+/// how unevenly the matrix stretches. So rays may come from up to 2^22 times the scene's size away, which is half the longest side of the box around all
+/// instances, divided by that; from farther, whether a ray is told to meet the rim of an instance may depend on the tree.
 ///
 /// An instance takes some 230 bytes, and some 700 while it is built ([`peak_bytes`](Self::peak_bytes)).
 ///
@@ -62,7 +62,7 @@ struct Parts<T: 'static> {
     geometries: Vec<Scene<T>>,
     instances: Vec<Instance>,
     /// From the world into the space of each instance.
-    to_object: Vec<DAffine3>,
+    to_object: Box<[DAffine3]>,
     tree: KdTree,
     space: TreeSpace,
 }
@@ -103,7 +103,7 @@ impl<T: Precision> InstancedScene<T> {
     const MOST_INSTANCES: usize = 1 << 30;
 
     /// Places `geometries`. An instance's id is its index, a geometry's likewise; geometries without an
-    /// instance are never met.
+    /// instance are never met. On which threads, [`Scene::build`] says; an instance counts as a triangle there.
     ///
     /// # Errors
     /// The first instance that cannot be placed, or why there is no tree.
@@ -133,11 +133,9 @@ impl<T: Precision> InstancedScene<T> {
         let mut places = placed(&geometries, &instances, progress)?;
         hide_empty(&mut places);
         let space = space_around(&places);
-        let bounds = |(index, place): (usize, &Place)| {
-            place.bounds(&space).ok_or(InstanceError::OutOfRange(index))
-        };
-        let boxes = places.iter().enumerate().map(bounds).collect::<Result<Vec<_>, _>>()?;
-        let to_object = places.into_iter().map(|place| place.to_object).collect();
+        let boxes = places.iter().map(|place| place.bounds(&space)).collect();
+        let to_object = places.iter().map(|place| place.to_object).collect();
+        drop(places);
         let tree = tree_over(boxes, &options, &|done| {
             progress(BuildProgress { fraction: PLACING + (1.0 - PLACING) * done.fraction })
         })?;
@@ -149,7 +147,8 @@ impl<T: Precision> InstancedScene<T> {
     /// of each while it is placed, and what [`BuildOptions::peak_bytes`] says of the tree over them.
     pub fn peak_bytes(instances: usize) -> u64 {
         let held = size_of::<Instance>() + size_of::<Place>() + size_of::<Aabb<3>>();
-        options().peak_bytes(instances).saturating_add((held * instances) as u64)
+        let held = (held as u64).saturating_mul(instances as u64);
+        options().peak_bytes(instances).saturating_add(held)
     }
 
     /// The same scene, for rays that see only the instances whose mask shares a bit with `mask`.
@@ -277,7 +276,8 @@ fn placed<T: Precision>(
     instances: &[Instance],
     progress: &(dyn Fn(BuildProgress) -> ControlFlow<()> + Sync),
 ) -> Result<Vec<Place>, InstancedSceneError> {
-    let place = |(index, instance): (usize, &Instance)| {
+    let mut places = Vec::with_capacity(instances.len());
+    for (index, instance) in instances.iter().enumerate() {
         if index.is_multiple_of(INSTANCES_PER_REPORT) {
             let fraction = PLACING * index as f64 / instances.len() as f64;
             if progress(BuildProgress { fraction }).is_break() {
@@ -288,9 +288,9 @@ fn placed<T: Precision>(
         let bounds = Some(geometry.tree().bounds()).filter(|bounds| !bounds.is_empty());
         let space = geometry.mesh().tree_space();
         let corners = bounds.map(|bounds| space.corners_in_mesh(bounds));
-        Ok(Place::of(index, instance, corners)?)
-    };
-    instances.iter().enumerate().map(place).collect()
+        places.push(Place::of(index, instance, corners)?);
+    }
+    Ok(places)
 }
 
 /// Puts instances of nothing into a corner of another, so that they do not stretch the scene. Where all are of nothing,
@@ -307,10 +307,11 @@ fn hide_empty(places: &mut [Place]) {
 
 /// The coordinates of the tree over the instances.
 fn space_around(places: &[Place]) -> TreeSpace {
-    let around =
-        |(low, high): (DVec3, DVec3), place: &Place| (low.min(place.low), high.max(place.high));
+    let around = |(low, high): (DVec3, DVec3), place: &Place| {
+        (low.min(place.low - place.error), high.max(place.high + place.error))
+    };
     let (min, max) = places.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), around);
-    // In f64, whatever the geometries are: boxes far from zero must not be wide there.
+    // In f64, whatever the geometries are: boxes must not be as wide as f32 is coarse where they are.
     TreeSpace::around::<f64>(min.into(), max.into())
 }
 

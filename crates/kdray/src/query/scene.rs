@@ -76,9 +76,10 @@ impl<T: Precision> Scene<T> {
     /// A tree whose cost was weighed for blocks of eight triangles, as by every
     /// [`Preset`](crate::build::Preset), is made wide; others are for the scalar traversal.
     ///
-    /// With the feature `rayon` a mesh of a thousand triangles and more is built on the current pool. A thread of that
-    /// pool that waits for others may begin another of its tasks meanwhile: so do not build large meshes in such tasks
-    /// under a lock, or in a `OnceLock`, that other tasks wait for. Smaller ones are built on the calling thread alone.
+    /// With the feature `rayon` meshes of a thousand triangles and more, and smaller ones whose trees have thousands of
+    /// nodes, are built on the current pool; others on the calling thread alone. A thread of the pool that waits for
+    /// others may begin another of its tasks meanwhile: so do not build large meshes in such tasks under a lock, or in a
+    /// `OnceLock`, that other tasks wait for.
     ///
     /// # Errors
     /// See [`BuildError`].

@@ -12,7 +12,7 @@ use std::iter::FusedIterator;
 /// soon as no later leaf can hold an earlier one; till then it is `pending`. So who wants a few stops
 /// asking, or says [`take`](Iterator::take), and pays for no more; [`after`](Self::after) goes on
 /// later.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 #[must_use = "hits are found only as they are asked for"]
 pub struct AllHits<'a, P, const K: usize, T = ()> {
     primitives: &'a P,
@@ -23,6 +23,14 @@ pub struct AllHits<'a, P, const K: usize, T = ()> {
     /// Found, not yielded; the next one last.
     pending: Vec<Hit>,
     last: Option<Hit>,
+}
+
+/// Not derived, which would ask for primitives that can be cloned.
+impl<P, const K: usize, T: Clone> Clone for AllHits<'_, P, K, T> {
+    fn clone(&self) -> Self {
+        let (walk, trace, pending) = (self.walk.clone(), self.trace.clone(), self.pending.clone());
+        Self { walk, trace, pending, ..*self }
+    }
 }
 
 impl<'a, P: Intersect<K>, const K: usize, T: Trace> AllHits<'a, P, K, T> {

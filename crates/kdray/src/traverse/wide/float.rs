@@ -44,7 +44,7 @@ impl FloatHit {
         // The shares of the corners b and c, which stand `turns` places before 1 and 2.
         let (u, v) = match block.turns(lane) {
             // Rounded, they may be more than one together.
-            0 => (u.min(1.0), v.min(1.0 - u.min(1.0))),
+            0 => (u, v.min(1.0 - u)),
             1 => (w, u),
             _ => (v, w),
         };
