@@ -210,7 +210,7 @@ mod tests {
     fn what_should_be_closed_is() {
         assert!(closed().iter().chain(&scaled()).all(|target| target.is_closed));
         assert!(awkward().iter().filter(|target| target.is_closed).count() <= 1);
-        assert_eq!(in_f64().iter().filter(|target| !target.is_closed).count(), 6);
+        assert_eq!(in_f64().iter().filter(|target| !target.is_closed).count(), 7);
     }
 
     #[test]

@@ -4,7 +4,7 @@ use super::build_and_query::built;
 use super::draw::Draw;
 use super::{instructions, refusals};
 use glam::{DAffine3, DVec3};
-use kdray::{Instance, InstanceHit, InstancedScene, InstructionSet, Precision, Ray, Scene};
+use kdray::{Instance, InstanceHit, InstancedScene, InstructionSet, Precision, Ray};
 
 /// How far away rays may begin to be carried well, in sizes of the scene over how unevenly a matrix stretches: less
 /// than the 2^22 that are documented.
@@ -90,7 +90,7 @@ fn check_instance<T: Precision>(
 ) {
     let instance = &scene.instances()[id as usize];
     let geometry = &scene.geometries()[instance.geometry_id as usize];
-    let (carried, is_near) = carried(scene, geometry, instance, ray);
+    let (carried, is_near) = carried(scene, instance, ray);
     if is_seen && !is_near {
         return;
     }
@@ -109,7 +109,6 @@ fn check_instance<T: Precision>(
 /// must not matter.
 fn carried<T: Precision>(
     scene: &InstancedScene<T>,
-    geometry: &Scene<T>,
     instance: &Instance,
     ray: &Ray,
 ) -> (Ray, bool) {
@@ -164,7 +163,7 @@ mod tests {
     use super::*;
     use crate::meshes::{moved, torus};
     use crate::rays::Archer;
-    use kdray::{BuildOptions, Coordinate};
+    use kdray::{BuildOptions, Coordinate, Scene};
 
     /// How many hits are checked on copies, one of them turned, of rays at the mesh.
     fn checked<T: Precision>(spoil: impl Fn(&mut Vec<InstanceHit>)) -> usize {
@@ -180,7 +179,7 @@ mod tests {
             let crossed: Vec<_> = scene.all_hits(ray).collect();
             spoil(&mut touched);
             for (id, instance) in (0..).zip(scene.instances()) {
-                let is_near = carried(&scene, &scene.geometries()[0], instance, ray).1;
+                let is_near = carried(&scene, instance, ray).1;
                 hits += touched.iter().filter(|it| is_near && it.instance_id == id).count();
                 check_instance(&scene, id, true, ray, [&touched, &crossed]);
             }

@@ -146,7 +146,6 @@ mod tests {
         assert_eq!(check_matrix(stretched([1e-310; 3], 0.0)), singular);
         assert_eq!(check_matrix(stretched([1e-200; 3], 1e200)), singular);
         assert_eq!(check_matrix(stretched([1e308; 3], 1.7e308)), beyond);
-        assert_eq!(check_matrix(stretched([1.0, 1e160, 1.0], 0.0)), beyond);
         assert_eq!(check_matrix(stretched([1.0, 1e60, 1.0], 0.0)), None);
         assert_eq!(check_matrix(stretched([1.0; 3], 1e300)), None);
         assert_eq!(check_matrix(stretched([1.0, 1e-3, 2.0], 5.0)), None);
