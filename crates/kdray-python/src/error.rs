@@ -7,6 +7,7 @@ import_exception!(kdray.errors, ArgumentError);
 import_exception!(kdray.errors, BuildError);
 import_exception!(kdray.errors, FileError);
 import_exception!(kdray.errors, InternalError);
+import_exception!(kdray.errors, KdrayError);
 import_exception!(kdray.errors, MissingFileError);
 import_exception!(kdray.errors, SceneError);
 import_exception!(kdray.errors, UnsupportedError);

@@ -1,11 +1,12 @@
 //! Work on other threads, while the interpreter is free for others, and what the caller looks after meanwhile.
 
-use crate::{error, pool};
+use crate::error;
+use crate::pool::{self, Threads};
 use pyo3::{Py, PyAny, PyErr, PyResult, Python};
 use rayon::prelude::*;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering::Relaxed};
-use std::sync::mpsc::{RecvTimeoutError, sync_channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::time::Duration;
 
 /// How often the caller looks whether somebody wants to end the work, and tells how far it is.
@@ -15,7 +16,7 @@ const TICK: Duration = Duration::from_millis(50);
 #[derive(Debug)]
 pub(crate) struct Job {
     /// On how many threads.
-    threads: usize,
+    threads: Threads,
     /// What is told how far it is: a function of what is done and what there is in all.
     progress: Option<Py<PyAny>>,
 }
@@ -90,27 +91,39 @@ impl Job {
         total: u64,
         work: impl FnOnce(&Control) -> PyResult<R> + Send,
     ) -> PyResult<R> {
-        let pool = pool::pool(self.threads)?;
-        let (sender, receiver) = sync_channel(1);
-        pool.in_place_scope(|scope| {
-            scope.spawn(move |_| {
-                // The caller waits for it, or is gone with the channel.
-                let _ = sender.send(caught(|| work(control)));
-            });
-            let mut raised = None;
-            loop {
-                match receiver.recv_timeout(TICK) {
-                    Ok(answer) => break raised.map_or(answer, Err),
-                    Err(RecvTimeoutError::Timeout) if raised.is_none() => {
-                        raised = self.look(control, total).err();
-                    }
-                    Err(RecvTimeoutError::Timeout) => {}
-                    Err(RecvTimeoutError::Disconnected) => {
-                        break Err(error::of_panic(&"the work ended without an answer"));
-                    }
+        let answer = pool::on_pool(self.threads, |pool| {
+            let (sender, receiver) = sync_channel(1);
+            pool.in_place_scope(|scope| {
+                scope.spawn(move |_| {
+                    // The caller waits for it, or is gone with the channel.
+                    let _ = sender.send(caught(|| work(control)));
+                });
+                self.awaited(&receiver, control, total)
+            })
+        });
+        answer?
+    }
+
+    /// The answer, and until it is there, what is to be looked after.
+    fn awaited<R>(
+        &self,
+        receiver: &Receiver<PyResult<R>>,
+        control: &Control,
+        total: u64,
+    ) -> PyResult<R> {
+        let mut raised = None;
+        loop {
+            match receiver.recv_timeout(TICK) {
+                Ok(answer) => return raised.map_or(answer, Err),
+                Err(RecvTimeoutError::Timeout) if raised.is_none() => {
+                    raised = self.look(control, total).err();
+                }
+                Err(RecvTimeoutError::Timeout) => {}
+                Err(RecvTimeoutError::Disconnected) => {
+                    return Err(error::of_panic(&"the work ended without an answer"));
                 }
             }
-        })
+        }
     }
 
     /// Looks whether the work is to end, and tells how far it is.

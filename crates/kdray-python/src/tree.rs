@@ -179,20 +179,24 @@ impl Tree {
     }
 
     /// The unit normals of triangles.
+    #[pyo3(signature = (primitive_id, geometry_id, instance_id, *, threads))]
     fn normals<'py>(
         &self,
         py: Python<'py>,
         primitive_id: PyReadonlyArray1<'py, i32>,
         geometry_id: PyReadonlyArray1<'py, i32>,
         instance_id: PyReadonlyArray1<'py, i32>,
+        threads: Option<i64>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let ids = [&primitive_id, &geometry_id, &instance_id].map(PyReadonlyArray1::as_array);
-        let (job, count) = (Job::new(None, None)?, primitive_id.len());
+        let (job, count) = (Job::new(threads, None)?, primitive_id.len());
         let work = |control: &Control| surface::normals(self, ids, control);
         rows(py, &job.answer(py, (count, FEW), work)?)
     }
 
     /// The points of triangles that have these weights.
+    #[pyo3(signature = (primitive_id, geometry_id, instance_id, u, v, *, threads))]
+    #[expect(clippy::too_many_arguments, reason = "they are those of the package's own method")]
     fn positions<'py>(
         &self,
         py: Python<'py>,
@@ -201,10 +205,11 @@ impl Tree {
         instance_id: PyReadonlyArray1<'py, i32>,
         u: PyReadonlyArray1<'py, f64>,
         v: PyReadonlyArray1<'py, f64>,
+        threads: Option<i64>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let ids = [&primitive_id, &geometry_id, &instance_id].map(PyReadonlyArray1::as_array);
         let weights = [u.as_array(), v.as_array()];
-        let (job, count) = (Job::new(None, None)?, primitive_id.len());
+        let (job, count) = (Job::new(threads, None)?, primitive_id.len());
         let work = |control: &Control| surface::positions(self, ids, weights, control);
         rows(py, &job.answer(py, (count, FEW), work)?)
     }

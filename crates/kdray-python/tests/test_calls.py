@@ -13,6 +13,8 @@ import pytest
 from conftest import CUBE_FACES, CUBE_VERTICES, random_rays, sphere
 
 import kdray
+from kdray.errors import renamed
+from kdray.warning import warn
 
 
 def test_threads_change_nothing(ball, monkeypatch):
@@ -119,21 +121,115 @@ def test_threads_are_not_shared_by_calls_but_kept_for_the_next():
     assert told.stdout.split() == ["2", "True"]
 
 
-@pytest.mark.parametrize("name", ["normal", "position"])
-def test_normals_and_positions_are_computed_as_queries_are(name):
+def counted_tasks(program, variables):
+    """What a program prints that may call ``tasks``: how many threads it has more than before its first call."""
     if not os.path.exists("/proc/self/task"):
         pytest.skip("the system does not list threads")
-    program = (
-        "import kdray, numpy as np, os, sys\n"
-        "scene = kdray.Scene([[0, 0, 2], [1, 0, 2], [0, 1, 2]], [[0, 1, 2]]).build(threads=1)\n"
-        "hits = scene.closest_hit(np.tile([0.25, 0.25, 0, 0, 0, 1], (5000, 1)), threads=1)\n"
-        f"assert (hits.{name}[..., 2] >= 1).all()\n"
-        "names = [open(f'/proc/self/task/{task}/comm').read() for task in os.listdir('/proc/self/task')]\n"
-        "print(sum(name.startswith('kdray') for name in names))\n"
+    before = (
+        "import kdray, numpy as np, os, pickle, time\n"
+        "first = len(os.listdir('/proc/self/task'))\n"
+        "tasks = lambda: len(os.listdir('/proc/self/task')) - first\n"
+        "triangle = [[0, 0, 2], [1, 0, 2], [0, 1, 2]], [[0, 1, 2]]\n"
+        "many = np.broadcast_to(np.ones(6), (10**8, 6))\n"
     )
-    run, threads = [sys.executable, "-c", program], {"KDRAY_THREADS": "3"}
-    told = subprocess.run(run, env=os.environ | threads, capture_output=True, text=True, check=True)
-    assert int(told.stdout) == 1 + 3
+    run = [sys.executable, "-c", before + program]
+    told = subprocess.run(run, env=os.environ | variables, capture_output=True, text=True)
+    assert told.returncode == 0, told.stderr
+    return [int(word) for word in told.stdout.split()]
+
+
+@pytest.mark.parametrize(("threads", "expected"), [("1", 1), ("2", 2), ("None", 3)])
+@pytest.mark.parametrize(
+    ("query", "use"),
+    [
+        ("closest_hit", "hits.normal"),
+        ("closest_hit", "hits.position"),
+        ("closest_hit", "hits[:4000].normal, hits[:4000].position"),
+        ("closest_hit", "pickle.dumps(hits)"),
+        ("all_hits", "hits.normal, hits.position"),
+        ("closest_point", "hits.normal"),
+        ("closest_point", "pickle.dumps(hits)"),
+    ],
+)
+def test_normals_and_positions_are_computed_on_the_threads_of_the_query(query, use, threads, expected):
+    rows = "[0.25, 0.25, 0]" if query == "closest_point" else "[0.25, 0.25, 0, 0, 0, 1]"
+    program = (
+        f"scene = kdray.Scene(*triangle).build(threads={threads})\n"
+        f"hits = scene.{query}(np.tile({rows}, (5000, 1)), threads={threads})\n"
+        f"{use}\n"
+        "print(tasks())\n"
+    )
+    assert counted_tasks(program, {"KDRAY_THREADS": "3"}) == [expected]
+
+
+@pytest.mark.parametrize(
+    ("threads", "expected"), [("None", [4, 6, 7, 8, 9]), ("1", [1, 2, 3, 4, 5]), ("4", [4, 8, 12, 16, 20])]
+)
+def test_calls_at_once_have_fewer_threads_each_unless_they_say_how_many(threads, expected):
+    program = (
+        f"scene = kdray.Scene(*triangle).build(threads={threads})\n"
+        "told = []\n"
+        "def tell(done, total):\n"
+        "    told.append(tasks())\n"
+        "    if len(told) < 5:\n"
+        f"        scene.any_hit(many, threads={threads}, progress=tell)\n"
+        "    raise LookupError\n"
+        "try:\n"
+        f"    scene.any_hit(many, threads={threads}, progress=tell)\n"
+        "except LookupError:\n"
+        "    print(*told)\n"
+    )
+    assert counted_tasks(program, {"KDRAY_THREADS": "4"}) == expected
+
+
+def test_idle_threads_are_few_and_those_used_last():
+    if not hasattr(os, "sched_setaffinity"):
+        pytest.skip("the system does not say on which processors a process runs")
+    # What was ended takes a while to be gone.
+    program = (
+        "os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})\n"
+        "def settled(count):\n"
+        "    end = time.monotonic() + 30\n"
+        "    while tasks() != count and time.monotonic() < end:\n"
+        "        time.sleep(0.01)\n"
+        "    return tasks()\n"
+        "scene = kdray.Scene(*triangle).build(threads=1)\n"
+        "def ask(threads):\n"
+        "    scene.any_hit(many[:5000], threads=threads)\n"
+        "def tell(done, total):\n"
+        "    ask(1), ask(1)\n"
+        "    raise LookupError\n"
+        "try:\n"
+        "    scene.any_hit(many, threads=1, progress=tell)\n"
+        "except LookupError:\n"
+        "    print(settled(2))\n"
+        "for threads in (2, 5, 3, 40, 1):\n"
+        "    ask(threads)\n"
+        "    print(settled(threads))\n"
+    )
+    assert counted_tasks(program, {}) == [2, 2, 5, 3, 40, 1]
+
+
+def test_what_says_how_many_threads_is_blamed_if_the_system_has_none():
+    program = (
+        "import kdray, numpy as np\n"
+        "scene = kdray.Scene([[0, 0, 2], [1, 0, 2], [0, 1, 2]], [[0, 1, 2]])\n"
+        "try:\n"
+        "    scene.any_hit(np.ones((5000, 6)), threads={threads})\n"
+        "except kdray.KdrayError as error:\n"
+        "    print(type(error).__name__, error)\n"
+    )
+    # As large as no memory is.
+    stack = {"RUST_MIN_STACK": str(1 << 50)}
+    others = {k: v for k, v in os.environ.items() if k not in ("KDRAY_THREADS", "RAYON_NUM_THREADS")}
+    for threads, variables, expected in [
+        (2, {"KDRAY_THREADS": "3"}, "ArgumentError threads: the system does not start"),
+        (None, {"KDRAY_THREADS": "3"}, "ArgumentError KDRAY_THREADS: the system does not start"),
+        (None, {}, "KdrayError the system does not start"),
+    ]:
+        run = [sys.executable, "-c", program.format(threads=threads)]
+        told = subprocess.run(run, env=others | stack | variables, capture_output=True, text=True, check=True)
+        assert told.stdout.startswith(expected), told.stdout
 
 
 @pytest.mark.parametrize("query", ["closest_hit", "any_hit", "count", "all_hits"])
@@ -261,6 +357,35 @@ def test_modules_beside_the_package_are_imported_where_they_are_named():
         "assert not hasattr(kdray, 'pytorch3d')\n"
     )
     subprocess.run([sys.executable, "-c", program], check=True)
+
+
+def test_a_module_whose_package_is_missing_is_no_attribute():
+    program = (
+        "import sys, kdray\n"
+        "assert {'dask', 'open3d', 'trimesh', 'Scene', '__name__'} <= set(dir(kdray))\n"
+        "sys.modules['dask'] = None\n"
+        "assert not hasattr(kdray, 'dask') and hasattr(kdray, 'open3d')\n"
+        "try:\n"
+        "    kdray.dask\n"
+        "except AttributeError as error:\n"
+        "    assert 'dask' in str(error) and isinstance(error.__cause__, ModuleNotFoundError), error\n"
+        "try:\n"
+        "    import kdray.dask\n"
+        "except ModuleNotFoundError as error:\n"
+        "    assert error.name.partition('.')[0] == 'dask', error.name\n"
+        "else:\n"
+        "    raise AssertionError\n"
+    )
+    subprocess.run([sys.executable, "-c", program], check=True)
+
+
+def test_warnings_point_to_the_caller_through_decorators():
+    decorated = renamed({"limit": "max_hits"})(warn)
+    with pytest.warns(UserWarning, match="max_hits") as warned:
+        warn("max_hits: one")
+        decorated("max_hits: another")
+        renamed({})(decorated)("max_hits: a third")
+    assert [warning.filename for warning in warned] == [__file__] * 3
 
 
 def test_importing_is_quick_and_needs_numpy_alone():

@@ -105,12 +105,22 @@ def test_rays_from_parquet(tree, rays, tmp_path):
         (lambda tree: kdray.dask.rays_from(5), "path"),
         (lambda tree: kdray.dask.rays_from("rays.txt"), "path"),
         (lambda tree: kdray.dask.any_hit(tree, np.zeros((3, 6)), t_max=np.ones(3)), "t_max"),
+        (lambda tree: kdray.dask.any_hit(tree, np.zeros((3, 6)), t_max=np.nan), "t_min, t_max"),
+        (lambda tree: kdray.dask.closest_hit(tree, np.zeros((3, 6)), t_min="near"), "t_min"),
+        (lambda tree: kdray.dask.count(tree, np.zeros((3, 6)), mask=0), "mask: give a number of 32 bits"),
+        (lambda tree: kdray.dask.all_hits(tree, np.zeros((3, 6)), limit=-1), "limit"),
+        (lambda tree: kdray.dask.contains(tree, np.zeros((3, 3)), invalid="pass"), "invalid"),
+        (lambda tree: kdray.dask.render(tree, picture="photograph"), "picture"),
+        (lambda tree: kdray.dask.render(tree, samples=0), "samples"),
+        (lambda tree: kdray.dask.radiance(tree, samples=1 << 20), "samples"),
+        (lambda tree: kdray.dask.radiance(tree, exposure="long"), "exposure"),
         (lambda tree: kdray.dask.any_hit(str(tree) + ".gone", np.zeros((3, 6))), ".*gone"),
     ],
 )
 def test_errors_name_the_argument(tree, call, name):
-    with pytest.raises(kdray.KdrayError, match=f"^{name}"):
+    with pytest.raises(kdray.KdrayError, match=f"^{name}") as raised:
         call(tree)
+    assert "where the block begins" not in str(raised.value)
 
 
 @pytest.mark.parametrize("ending", ["npy", "zarr", "parquet"])
@@ -141,6 +151,18 @@ def test_a_bad_ray_is_named_by_its_block(tree, rays):
             lazy.compute()
     with pytest.raises(kdray.ArgumentError, match="counted from \\(2, 0\\)"):
         kdray.dask.count(tree, da.from_array(bad.reshape(5, 1000, 6), chunks=(1, 1000, 6))).compute()
+
+
+def test_blocks_are_told_of_what_is_counted_alone():
+    info = [{"array-location": [(2000, 3000), (0, 6)]}]
+    for text, told in [
+        ("mask: give a number", "mask: give a number"),
+        ("origins: that of ray 5 is", "origins: that of ray 5 is; counted from 2000, where the block begins"),
+        ("points: that of index 5 is", "points: that of index 5 is; counted from 2000, where the block begins"),
+    ]:
+        with pytest.raises(kdray.ArgumentError) as raised, kdray.dask._counting(info):
+            raise kdray.ArgumentError(text)
+        assert str(raised.value) == told
 
 
 def test_a_tree_that_changed_is_an_error(tree, rays, tmp_path):

@@ -152,6 +152,9 @@ def test_errors_name_the_argument(ball):
         ball.ray.intersects_first([[0, 0]], [[0, 0]])
     with pytest.raises(ValueError, match="points"):
         ball.ray.contains_points([0, 0, 0])
+    for ask in (ball.ray.intersects_any, ball.ray.intersects_first, ball.ray.intersects_location):
+        with pytest.raises(TypeError, match="max_hit'"):
+            ask([[0, 0, -5]], [[0, 0, 1]], max_hit=3)
     fails(kdray.ArgumentTypeError, "ray_origins", ball.ray.intersects_any, [[0, 0, 0], [1]], [[0, 0, 1]] * 2)
     for error, most in [(kdray.ArgumentError, -1), (kdray.ArgumentTypeError, 2.5)]:
         fails(error, "max_hits", ball.ray.intersects_id, [[0, 0, -5]], [[0, 0, 1]], max_hits=most)

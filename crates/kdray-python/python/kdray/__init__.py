@@ -30,14 +30,22 @@ if TYPE_CHECKING:
     from . import open3d as open3d
     from . import trimesh as trimesh
 else:
+    _MODULES = ("dask", "open3d", "trimesh")
 
     def __getattr__(name):
         """Modules that not everybody needs, imported where they are first named."""
         from importlib import import_module
 
-        if name in ("dask", "open3d", "trimesh"):
+        missing = f"module {__name__!r} has no attribute {name!r}"
+        if name not in _MODULES:
+            raise AttributeError(missing)
+        try:
             return import_module(f"{__name__}.{name}")
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        except ModuleNotFoundError as error:
+            raise AttributeError(f"{missing}, for what it needs is not there: {error}") from error
+
+    def __dir__():
+        return sorted({*globals(), *_MODULES})
 
 
 __all__ = [

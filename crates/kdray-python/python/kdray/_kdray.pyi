@@ -165,6 +165,8 @@ class Tree:
         primitive_id: NDArray[np.int32],
         geometry_id: NDArray[np.int32],
         instance_id: NDArray[np.int32],
+        *,
+        threads: int | None,
     ) -> NDArray[np.float64]: ...
     def positions(
         self,
@@ -173,6 +175,8 @@ class Tree:
         instance_id: NDArray[np.int32],
         u: NDArray[np.float64],
         v: NDArray[np.float64],
+        *,
+        threads: int | None,
     ) -> NDArray[np.float64]: ...
 
 def contains(

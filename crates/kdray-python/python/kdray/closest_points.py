@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Optional
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,7 +38,13 @@ class ClosestPoints:
     geometry_id: NDArray[np.int32]
     """The geometry, as numbered by ``Scene.add_triangles``."""
 
-    def __init__(self, tree: Tree, arrays: _NearestArrays, shape: tuple[int, ...]) -> None:
+    def __init__(
+        self,
+        tree: Tree,
+        arrays: _NearestArrays,
+        shape: tuple[int, ...],
+        threads: Optional[int],
+    ) -> None:
         point, distance, u, v, primitive_id, geometry_id = arrays
         self.point, self.distance = point.reshape((*shape, 3)), distance.reshape(shape)
         self.u, self.v = u.reshape(shape), v.reshape(shape)
@@ -46,6 +52,8 @@ class ClosestPoints:
         self.geometry_id = geometry_id.reshape(shape)
         # What was a pickle has none; its normals are there.
         self._tree: Any = tree
+        # Those of the query, on which normals are computed.
+        self._threads = threads
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -57,7 +65,8 @@ class ClosestPoints:
         """The triangles' unit normals (..., 3), which point to the front."""
         flat = (self.primitive_id.reshape(-1), self.geometry_id.reshape(-1))
         none = np.full(flat[0].shape, -1, dtype=np.int32)
-        normals: FloatArray = self._tree.normals(*flat, none).reshape((*self.shape, 3))
+        found = self._tree.normals(*flat, none, threads=self._threads)
+        normals: FloatArray = found.reshape((*self.shape, 3))
         return normals.astype(self.distance.dtype, copy=False)
 
     def __getstate__(self) -> dict[str, Any]:

@@ -19,8 +19,10 @@ where it begins.
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import cache
 from hashlib import blake2b
 from inspect import signature
 from os import PathLike
@@ -60,6 +62,9 @@ Crop = tuple[int, int, int, int]
 
 PER_TASK = 2_000_000
 """Rays or points a task, unless told otherwise: seconds of work, and 160 MB of rays and hits in f64."""
+
+COUNTED = re.compile(r"\bof (ray|index) \d")
+"""What errors say that are about one ray or point."""
 
 TAKEN = frozenset({"threads", "progress", "crop"})
 """Options that each task has from here, or that only one process can have."""
@@ -153,7 +158,7 @@ def render(
     ``options`` are those of ``kdray.Scene.render``. The pixels are those of one machine, bit for bit; pictures of
     cost need a ``heat_max``, or each tile would have its own. Stack the pictures of several cameras for an animation.
     """
-    _check_names("render", options)
+    _check_picture(options)
 
     def pixels(seen: Scene, crop: Crop) -> NDArray[np.uint8]:
         picture = seen.render(width=width, height=height, crop=crop, threads=1, **options)
@@ -177,7 +182,7 @@ def radiance(
     The mean of all samples, as ``Scene.render(...).layers`` has it but for the rounding of sums.
     """
     samples, at_once = _positive("samples", samples), _positive("samples_per_task", samples_per_task)
-    _check_names("render", options, TAKEN | {"sample_range"})
+    _check_picture({"samples": samples, **options}, TAKEN | {"sample_range"})
 
     def light(first: int, end: int) -> da.Array:
         def sums(seen: Scene, crop: Crop) -> NDArray[np.float64]:
@@ -239,25 +244,43 @@ def _asked(
 
 @contextmanager
 def _counting(block_info: Any) -> Iterator[None]:
-    """Errors say where the block begins within which they count."""
+    """Errors that count rays or points say where the block begins within which they do."""
     try:
         yield
     except ArgumentError as error:
+        if not COUNTED.search(str(error)):
+            raise
         starts = [start for start, _ in block_info[0]["array-location"][:-1]]
         begin = starts[0] if len(starts) == 1 else tuple(starts)
         raise ArgumentError(f"{error}; counted from {begin}, where the block begins") from None
 
 
 def _check(query: str, options: dict[str, Any]) -> None:
-    """Refuses options that a query does not have, and arrays: they would be broadcast to each block, not to all."""
+    """Refuses options that a query does not have, arrays, which would be broadcast to each block and not to all, and
+    what the query does not take."""
     _check_names(query, options)
     for name, value in options.items():
         if not is_single(value):
             raise ArgumentError(f"{name}: give one number for all")
+    width = 3 if query in ("contains", "signed_distance") else 6
+    getattr(_nothing(), query)(np.ones((1, width)), threads=1, **options)
+
+
+def _check_picture(options: dict[str, Any], taken: frozenset[str] = TAKEN) -> None:
+    """The same for pictures. Which cameras there are, the file says."""
+    _check_names("render", options, taken)
+    others = {name: value for name, value in options.items() if name != "camera"}
+    _nothing().render(width=1, height=1, threads=1, **others)
+
+
+@cache
+def _nothing() -> Scene:
+    """A scene of nothing, which is quick to say what it does not take."""
+    return Scene().build(threads=1)
 
 
 def _check_names(query: str, options: dict[str, Any], taken: frozenset[str] = TAKEN) -> None:
-    """Refuses options that a method of scenes does not have, before any worker does."""
+    """Refuses options that a method of scenes does not have."""
     parameters = signature(getattr(Scene, query)).parameters.values()
     known = [it.name for it in parameters if it.kind is it.KEYWORD_ONLY and it.name not in taken]
     for name in options:

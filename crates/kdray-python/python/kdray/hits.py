@@ -35,13 +35,21 @@ class Hits:
     front: NDArray[np.bool_]
     """Whether the front was hit: the side from which the triangle's vertices run counter-clockwise."""
 
-    def __init__(self, tree: Optional[Tree], arrays: _HitArrays, shape: tuple[int, ...]) -> None:
+    def __init__(
+        self,
+        tree: Optional[Tree],
+        arrays: _HitArrays,
+        shape: tuple[int, ...],
+        threads: Optional[int],
+    ) -> None:
         t, u, v, primitive_id, front, geometry_id, instance_id = arrays
         self.t, self.u, self.v = t.reshape(shape), u.reshape(shape), v.reshape(shape)
         self.primitive_id, self.front = primitive_id.reshape(shape), front.reshape(shape)
         self._geometry_id, self._instance_id = geometry_id, instance_id
         # What was a pickle has none; its normals and positions are there.
         self._tree: Any = tree
+        # Those of the query, on which normals and positions are computed.
+        self._threads = threads
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -70,13 +78,14 @@ class Hits:
     @cached_property
     def normal(self) -> FloatArray:
         """The triangles' unit normals (..., 3), which point to the front; NaN where nothing was hit."""
-        return self._of_triangles(self._tree.normals(*self._ids()))
+        return self._of_triangles(self._tree.normals(*self._ids(), threads=self._threads))
 
     @cached_property
     def position(self) -> FloatArray:
         """The points that were hit (..., 3), on the triangles, by u and v; NaN where nothing was hit."""
         weights = [np.ascontiguousarray(w, dtype=np.float64).reshape(-1) for w in (self.u, self.v)]
-        return self._of_triangles(self._tree.positions(*self._ids(), *weights))
+        positions = self._tree.positions(*self._ids(), *weights, threads=self._threads)
+        return self._of_triangles(positions)
 
     def __getitem__(self, index: Any) -> Hits:
         """The hits at some places, by what arrays are indexed with."""
@@ -85,7 +94,7 @@ class Hits:
 
         arrays = (self.t, self.u, self.v, self.primitive_id, self.front)
         chosen: Any = [flat(array) for array in (*arrays, self._geometry_id, self._instance_id)]
-        hits = Hits(self._tree, chosen, chosen[0].shape)
+        hits = Hits(self._tree, chosen, chosen[0].shape, self._threads)
         if self._tree is None:
             places = np.arange(self.t.size).reshape(self.shape)[index]
             hits.normal = self.normal.reshape(-1, 3)[places]
@@ -135,8 +144,9 @@ class AllHits(Hits):
         arrays: _HitArrays,
         offsets: NDArray[np.int64],
         shape: tuple[int, ...],
+        threads: Optional[int],
     ) -> None:
-        super().__init__(tree, arrays, arrays[0].shape)
+        super().__init__(tree, arrays, arrays[0].shape, threads)
         self.offsets, self._shape_of_rays = offsets, shape
 
     @cached_property

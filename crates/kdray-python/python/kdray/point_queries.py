@@ -71,15 +71,16 @@ class PointQueries:
         array = vectors("points", points)
         with telling(progress, "point") as told:
             tree = self._built(threads)
+            count = whole_or_none("threads", threads)
             nearest = _kdray.closest_point(
                 tree,
                 array,
                 is_double=array.dtype != np.float32,
                 lenient=is_lenient(invalid),
-                threads=whole_or_none("threads", threads),
+                threads=count,
                 progress=told,
             )
-        return ClosestPoints(tree, nearest, array.shape[:-1])
+        return ClosestPoints(tree, nearest, array.shape[:-1], count)
 
     def signed_distance(
         self,

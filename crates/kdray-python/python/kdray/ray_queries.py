@@ -66,15 +66,16 @@ class RayQueries:
         rays, lenient = Rays.of(origins, directions, t_min, t_max), is_lenient(invalid)
         with telling(progress, "ray") as told:
             tree = self._built(threads)
+            count = whole_or_none("threads", threads)
             arrays = tree.closest_hit(
                 rays.arrays,
                 is_double=rays.is_double,
                 lenient=lenient,
                 mask=mask_bits(mask),
-                threads=whole_or_none("threads", threads),
+                threads=count,
                 progress=told,
             )
-        return Hits(tree, arrays, rays.shape)
+        return Hits(tree, arrays, rays.shape, count)
 
     def any_hit(
         self,
@@ -126,16 +127,17 @@ class RayQueries:
             raise ArgumentError("limit: give a whole number that is not negative")
         with telling(progress, "ray") as told:
             tree = self._built(threads)
+            count = whole_or_none("threads", threads)
             offsets, arrays = tree.all_hits(
                 rays.arrays,
                 is_double=rays.is_double,
                 limit=most,
                 lenient=lenient,
                 mask=mask_bits(mask),
-                threads=whole_or_none("threads", threads),
+                threads=count,
                 progress=told,
             )
-        return AllHits(tree, arrays, offsets, rays.shape)
+        return AllHits(tree, arrays, offsets, rays.shape, count)
 
     def count(
         self,

@@ -142,15 +142,13 @@ class RayMeshIntersector:
             return index_tri, index_ray, hits.position.astype(np.float64, copy=False)
         return index_tri, index_ray
 
-    def intersects_first(self, ray_origins: ArrayLike, ray_directions: ArrayLike, **_: Any) -> Ids:
+    def intersects_first(self, ray_origins: ArrayLike, ray_directions: ArrayLike) -> Ids:
         """The first face that each ray hits (n,), or -1."""
         built = self._now()
         hits = built.scene.closest_hit(**_rays(built, ray_origins, ray_directions))
         return hits.primitive_id.astype(np.int64)
 
-    def intersects_any(
-        self, ray_origins: ArrayLike, ray_directions: ArrayLike, **_: Any
-    ) -> NDArray[np.bool_]:
+    def intersects_any(self, ray_origins: ArrayLike, ray_directions: ArrayLike) -> NDArray[np.bool_]:
         """Whether each ray hits anything (n,)."""
         built = self._now()
         return built.scene.any_hit(**_rays(built, ray_origins, ray_directions))
