@@ -137,13 +137,17 @@ pub(crate) fn is_close_to_exact<T: Precision>(
     instructions: &str,
 ) {
     let Some(set) = sets::named(instructions) else { return };
+    // Some cases have nothing that a ray might hit.
+    let mut all_hits = 0;
     for case in cases.iter().filter(|case| !case.subject.triangles().is_empty()) {
         let exact = scene_with(options, case, set);
         let (packets, rays) = at_random(case);
         let hits: Vec<_> = rays.iter().map(|ray| exact.closest_hit(ray)).collect();
+        all_hits += hits.iter().flatten().count();
         let float = exact.with_arithmetic(Arithmetic::Float);
         assert_promised(case, &hits, &Answers::of(&float, &rays, &packets));
     }
+    assert!(all_hits > 1000, "{all_hits} hits");
 }
 
 fn assert_promised<T: Precision>(
@@ -153,7 +157,6 @@ fn assert_promised<T: Precision>(
 ) {
     let promise = Promise::of(case);
     let hits = exact.iter().flatten().count();
-    assert!(hits > 0, "case {:?}: nothing was hit", case.name);
     let most = promise.most_wrong(hits);
     let told = |name, wrong| format!("case {:?}, {name}: {wrong} wrong, {hits} hits", case.name);
     for (name, found) in &answers.closest {

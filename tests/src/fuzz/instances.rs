@@ -107,11 +107,7 @@ fn check_instance<T: Precision>(
 
 /// The ray in the space of an instance, as the scene carries it, and whether that rounds it so little that the tree
 /// must not matter.
-fn carried<T: Precision>(
-    scene: &InstancedScene<T>,
-    instance: &Instance,
-    ray: &Ray,
-) -> (Ray, bool) {
+fn carried<T: Precision>(scene: &InstancedScene<T>, instance: &Instance, ray: &Ray) -> (Ray, bool) {
     let column = |k: usize| DVec3::from(instance.to_world.map(|row| row[k]));
     let to_world = DAffine3::from_cols(column(0), column(1), column(2), column(3));
     let to_object = inverse(&to_world);
