@@ -10,7 +10,7 @@ use kdray_tests::{OwnedPacket, Packer, sets};
 
 /// How many packets of each kind are made, and of how many rays.
 const PACKETS: usize = 4;
-const RAYS: usize = 256;
+const RAYS: usize = 128;
 
 /// All answers to some rays, by what was asked.
 struct Answers {
@@ -147,7 +147,7 @@ pub(crate) fn is_close_to_exact<T: Precision>(
         let float = exact.with_arithmetic(Arithmetic::Float);
         assert_promised(case, &hits, &Answers::of(&float, &rays, &packets));
     }
-    assert!(all_hits > 1000, "{all_hits} hits");
+    assert!(all_hits > 500, "{all_hits} hits");
 }
 
 fn assert_promised<T: Precision>(

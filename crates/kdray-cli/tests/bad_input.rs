@@ -168,6 +168,8 @@ fn a_picture_needs_pixels() {
     }
     let large = ["draw", "gone.off", "-o", "a.png", "--size", "16384x16384"];
     folder.kdray(&large).fails(USAGE, &["--size 16384x16384", ".svg"]);
+    // Such a slice may be as flat as the mesh.
+    folder.kdray(&[&large[..], &["--slice", "z=0"]].concat()).fails(INPUT, &["gone.off"]);
     assert!(folder.names().is_empty());
 }
 

@@ -5,7 +5,6 @@ mod support;
 use image::{GenericImageView, ImageReader};
 use std::{
     fs,
-    io::Write,
     path::Path,
     process::{Child, Command, Stdio},
     thread::sleep,
@@ -91,7 +90,7 @@ fn through_pipe(folder: &Folder, name: &str, write: impl FnOnce()) -> Vec<u8> {
 #[cfg(unix)]
 fn a_render_that_is_ended_at_once_leaves_nothing() {
     let folder = folder();
-    let mut command = listening();
+    let mut command = Command::new(binary());
     command.args(["render", "ball.off", "--size", "960x960", "--samples", "60000"]);
     command.current_dir(folder.path("")).stdout(Stdio::null()).stderr(Stdio::null());
     let mut child = command.spawn().expect("the command runs");
@@ -100,9 +99,9 @@ fn a_render_that_is_ended_at_once_leaves_nothing() {
         assert!(start.elapsed() < Duration::from_secs(60), "no file is begun");
         sleep(Duration::from_millis(10));
     }
-    interrupt(&child);
+    send(&child, "TERM");
     sleep(Duration::from_millis(100));
-    interrupt(&child);
+    send(&child, "TERM");
     assert_eq!(child.wait().expect("an end").code(), Some(INTERRUPTED));
     assert_eq!(folder.names(), ["ball.off"]);
 }
@@ -258,42 +257,37 @@ fn completions_and_manual_pages_are_made() {
     assert!(folder.path("pages/kdray.1").is_file());
 }
 
-/// Runs the command, interrupts it once it says `sign`, and returns its exit code.
+/// Runs the command, sends it `signals` once it says `sign`, and returns its exit code.
 #[cfg(unix)]
-fn interrupted(folder: &Folder, arguments: &[&str], sign: &str) -> Option<i32> {
+fn signalled(folder: &Folder, mut command: Command, sign: &str, signals: &[&str]) -> Option<i32> {
     let said = fs::File::create(folder.path("said")).expect("a file");
-    let mut command = listening();
-    command.args(arguments).current_dir(folder.path(""));
-    command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(said);
+    command.current_dir(folder.path("")).stdin(Stdio::null()).stdout(Stdio::null()).stderr(said);
     let mut child = command.spawn().expect("the command runs");
     wait_for(folder, sign);
-    interrupt(&child);
+    for signal in signals {
+        send(&child, signal);
+        sleep(Duration::from_millis(100));
+    }
     let code = child.wait().expect("an end").code();
     fs::remove_file(folder.path("said")).expect("the file");
     code
 }
 
-/// The command as one starts it by hand: it ignores no signals, whatever these tests ignore.
-#[cfg(unix)]
-fn listening() -> Command {
-    if cfg!(not(target_os = "linux")) {
-        return Command::new(binary());
-    }
-    let mut command = Command::new("env");
-    command.arg("--default-signal=HUP,INT,TERM").arg(binary());
+/// The command, told to ignore a signal, as `nohup` tells it.
+#[cfg(target_os = "linux")]
+fn ignoring(signal: &str) -> Command {
+    let mut command = Command::new("sh");
+    let script = format!("trap '' {signal}; exec \"$0\" \"$@\"");
+    command.arg("-c").arg(script).arg(binary());
     command
 }
 
-#[cfg(unix)]
-fn interrupt(child: &Child) {
-    send(child, "-INT");
-}
-
+/// Sends a signal. Tests end commands by TERM: whoever runs them may have them ignore INT and HUP.
 #[cfg(unix)]
 fn send(child: &Child, signal: &str) {
     let id = child.id().to_string();
     // Fails if the process has ended already.
-    Command::new("kill").args([signal, &id]).output().expect("kill runs");
+    Command::new("kill").args(["-s", signal, &id]).output().expect("kill runs");
 }
 
 /// Waits until the command has said `sign`.
@@ -308,13 +302,14 @@ fn wait_for(folder: &Folder, sign: &str) {
 }
 
 #[test]
-#[cfg(unix)]
+#[cfg(target_os = "linux")]
 fn a_signal_that_was_ignored_stays_ignored() {
+    use std::io::Write;
+
     let folder = folder();
     for name in ["INT", "HUP"] {
-        let mut command = Command::new("sh");
-        let script = format!("trap '' {name}; exec \"$0\" \"$@\"");
-        command.arg("-c").arg(script).arg(binary()).current_dir(folder.path(""));
+        let mut command = ignoring(name);
+        command.current_dir(folder.path(""));
         command.args(["query", "ball.off", "--rays", "-", "--mode", "any", "--out", "-"]);
         let said = fs::File::create(folder.path("said")).expect("a file");
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(said);
@@ -323,7 +318,7 @@ fn a_signal_that_was_ignored_stays_ignored() {
         let mut ask = || stdin.write_all(b"0.1,0.2,5,0,0,-1\n");
         ask().expect("it reads");
         wait_for(&folder, "built a tree");
-        send(&child, &format!("-{name}"));
+        send(&child, name);
         sleep(Duration::from_millis(100));
         ask().unwrap_or_else(|_| panic!("ended by {name}"));
         drop(stdin);
@@ -333,15 +328,39 @@ fn a_signal_that_was_ignored_stays_ignored() {
     }
 }
 
+/// A render that takes long.
+#[cfg(unix)]
+const LONG: [&str; 6] = ["render", "ball.off", "--size", "960x960", "--samples", "1000"];
+
+#[cfg(unix)]
+fn assert_partly_rendered(folder: &Folder) {
+    let picture = picture(&folder.path("kdray.png")).to_rgba8();
+    assert!(picture.pixels().any(|pixel| pixel.0 == [0; 4]), "nothing is left undone");
+    assert_eq!(folder.names(), ["ball.off", "kdray.png"]);
+}
+
 #[test]
 #[cfg(unix)]
 fn an_interrupted_render_writes_what_is_done() {
     let folder = folder();
-    let arguments = ["render", "ball.off", "--size", "960x960", "--samples", "1000"];
-    assert_eq!(interrupted(&folder, &arguments, "built a tree"), Some(INTERRUPTED));
-    let picture = picture(&folder.path("kdray.png")).to_rgba8();
-    assert!(picture.pixels().any(|pixel| pixel.0 == [0; 4]), "nothing is left undone");
-    assert_eq!(folder.names(), ["ball.off", "kdray.png"]);
+    let mut command = Command::new(binary());
+    command.args(LONG);
+    assert_eq!(signalled(&folder, command, "built a tree", &["TERM"]), Some(INTERRUPTED));
+    assert_partly_rendered(&folder);
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn where_a_signal_is_ignored_the_others_are_not() {
+    for ignored in ["HUP", "INT"] {
+        let folder = folder();
+        let mut command = ignoring(ignored);
+        command.args(LONG);
+        let signals = [ignored, ignored, "TERM"];
+        let code = signalled(&folder, command, "built a tree", &signals);
+        assert_eq!(code, Some(INTERRUPTED), "{ignored}");
+        assert_partly_rendered(&folder);
+    }
 }
 
 #[test]
@@ -350,7 +369,8 @@ fn an_interrupted_query_leaves_nothing() {
     let folder = Folder::new();
     folder.file("ball.off", bumpy_ball(200, 200));
     folder.file("rays.csv", "0.1,0.2,5,0,0,-1\n".repeat(100_000));
-    let arguments = ["query", "ball.off", "--rays", "rays.csv", "--naive", "--out", "hits.csv"];
-    assert_eq!(interrupted(&folder, &arguments, "read 80000 triangles"), Some(INTERRUPTED));
+    let mut command = Command::new(binary());
+    command.args(["query", "ball.off", "--rays", "rays.csv", "--naive", "--out", "hits.csv"]);
+    assert_eq!(signalled(&folder, command, "read 80000 triangles", &["TERM"]), Some(INTERRUPTED));
     assert_eq!(folder.names(), ["ball.off", "rays.csv"]);
 }

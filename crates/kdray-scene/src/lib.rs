@@ -6,6 +6,7 @@
 
 pub mod built_in;
 mod camera;
+mod cut;
 mod error;
 mod format;
 mod formats;

@@ -8,7 +8,8 @@ use crate::{
     error::CliError,
     load,
     pictures::{
-        LineColor, PictureFile, Section, Slice, Wireframe, draw_slice, draw_wireframe, scene_name,
+        AROUND, LineColor, PictureFile, Section, Slice, Wireframe, draw_slice, draw_wireframe,
+        scene_name,
     },
     progress,
     wording::{counted, exact},
@@ -81,7 +82,10 @@ pub(crate) fn run(args: &Args, globals: &Globals) -> Result<(), CliError> {
         )));
     }
     let file = PictureFile::create(&args.out)?;
-    file.check_size(args.view.size)?;
+    // A slice may be smaller than its room.
+    if args.slice.is_none() {
+        file.check_size(args.view.size, AROUND)?;
+    }
     let model = load::model(&args.scene, globals)?;
     if model.triangles.is_empty() {
         return Err(nothing_to_draw(args));

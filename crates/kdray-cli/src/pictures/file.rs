@@ -31,16 +31,15 @@ impl PictureFile {
         Ok(Self { path: path.to_owned(), output: Output::create(path)?, format })
     }
 
-    /// Refuses a `--size` that makes a PNG too large, before the work.
-    pub(crate) fn check_size(&self, size: Size) -> Result<(), CliError> {
+    /// Refuses a `--size` that is too large for a PNG with at least `around` more pixels down,
+    /// before the work.
+    pub(crate) fn check_size(&self, size: Size, around: f64) -> Result<(), CliError> {
         let Size { width, height } = size;
-        // About as much as there is around the picture: key, scale and title.
-        let [across, down] = [(width as f64 + 128.0).max(640.0), height as f64 + 256.0];
-        if self.format == Format::Svg || across * down <= MAX_PIXELS {
+        if self.format == Format::Svg || width as f64 * (height as f64 + around) <= MAX_PIXELS {
             return Ok(());
         }
         Err(CliError::Usage(format!(
-            "--size {width}x{height}: with key and scale these are more pixels than a PNG may have, \
+            "--size {width}x{height}: with title and key these are more pixels than a PNG may have, \
              {MAX_PIXELS}; choose a smaller size, or a name that ends in .svg"
         )))
     }
@@ -107,6 +106,16 @@ mod tests {
             let error = Format::of(Path::new(bad)).unwrap_err().to_string();
             assert!(error.contains(bad) && error.contains(".png"), "{error}");
         }
+    }
+
+    #[test]
+    fn sizes_that_fit_are_not_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = |name| PictureFile::create(&folder.path().join(name)).unwrap();
+        let size = Size { width: 16384, height: 16128 };
+        assert!(file("a.png").check_size(size, 256.0).is_ok());
+        assert!(file("a.png").check_size(size, 257.0).is_err());
+        assert!(file("a.svg").check_size(size, 257.0).is_ok());
     }
 
     #[test]

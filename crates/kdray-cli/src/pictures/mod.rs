@@ -32,7 +32,7 @@ pub(crate) use frustum_view::{FrustumView, draw_frustum_view};
 pub(crate) use ray_path::{RayPath, draw_ray_path};
 pub(crate) use section::Section;
 pub(crate) use slice::{Slice, draw_slice};
-pub(crate) use wireframe::{LineColor, Wireframe, draw_wireframe};
+pub(crate) use wireframe::{AROUND, LineColor, Wireframe, draw_wireframe};
 
 /// What a picture calls the scene: its file's name, without what XML does not allow.
 pub(crate) fn scene_name(args: &SceneArgs) -> String {

@@ -36,6 +36,10 @@ pub(crate) enum LineColor {
 }
 
 const HEADER: f64 = 40.0;
+const GAP: f64 = 8.0;
+
+/// How many pixels the picture is higher than the render, besides the legend.
+pub(crate) const AROUND: f64 = HEADER + 2.0 * GAP;
 
 /// Draws the planes of the tree's upper levels over the render. What the scene hides is dotted
 /// and faint: rays from the camera tell.
@@ -44,13 +48,13 @@ pub(crate) fn draw_wireframe(it: &Wireframe<'_>) -> Canvas {
     let edges = edges(it.scene, it.depth);
     let legend = legend(it, &edges);
     let legend_height = legend::height(&legend, width - 24.0);
-    let mut canvas = Canvas::new(width, HEADER + height + 8.0 + legend_height + 8.0, it.title);
+    let mut canvas = Canvas::new(width, AROUND + height + legend_height, it.title);
     canvas.text([12.0, 26.0], Anchor::Start, 15.0, it.title);
     let over = OverRender { scene: it.scene, camera: it.camera, render: it.render, size: it.size };
     over.draw(&mut canvas, HEADER, &edges, |kind, seen, ends| {
         lines(ends, kind.stroke(seen, &color(it, kind.plane)))
     });
-    legend::draw(&mut canvas, [12.0, HEADER + height + 8.0], width - 24.0, &legend);
+    legend::draw(&mut canvas, [12.0, HEADER + height + GAP], width - 24.0, &legend);
     canvas
 }
 

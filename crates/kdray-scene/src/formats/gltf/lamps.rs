@@ -2,6 +2,7 @@
 
 use super::Document;
 use super::graph::PlacedNode;
+use crate::cut::cut;
 use crate::mesh::MeshBuilder;
 use crate::{Camera, Cone, Light, Projection};
 use ::gltf::json::extensions::scene::khr_lights_punctual::Type;
@@ -33,7 +34,8 @@ pub(super) fn add_camera(document: Document<'_>, node: &PlacedNode, builder: &mu
     let name = camera.name.clone().or(json.name.clone()).unwrap_or_default();
     let pose = pose(node).filter(|[_, forward, up]| forward.cross(*up).length() > 1e-9);
     let (Some(projection), Some([eye, forward, up])) = (projection, pose) else {
-        let warning = format!("nodes[{}]: the camera {name:?} has no view; left out", node.index);
+        let warning =
+            format!("nodes[{}]: the camera {:?} has no view; left out", node.index, cut(&name));
         builder.warn_often("cameras without a view left out", warning);
         return;
     };

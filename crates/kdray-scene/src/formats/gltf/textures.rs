@@ -3,6 +3,7 @@
 use super::Document;
 use super::buffers::Buffers;
 use super::content::Content;
+use crate::cut::cut;
 use crate::input::read_file;
 use crate::mesh::MeshBuilder;
 use crate::textures::{Encoding, TextureDecoder};
@@ -92,7 +93,7 @@ impl<'a> Textures<'a> {
         match Content::find(self.document, uri) {
             Ok(Content::File(path)) => Ok(ImageFile::File(path)),
             Ok(Content::Data(_)) => Ok(ImageFile::Data(index)),
-            Err(error) => Err(format!("{:?}: {error}", start_of(uri))),
+            Err(error) => Err(format!("{:?}: {error}", cut(uri))),
         }
     }
 
@@ -113,13 +114,9 @@ impl<'a> Textures<'a> {
             ImageFile::File(path) => read_file(path, limit),
             ImageFile::Data(_) => Content::Data(uri).read(limit),
         };
-        let bytes = bytes.map_err(|error| format!("{:?}: {error}", start_of(uri)))?;
+        let bytes = bytes.map_err(|error| format!("{:?}: {error}", cut(uri)))?;
         self.decoder.decode(&bytes, encoding, wrap)
     }
-}
-
-fn start_of(uri: &str) -> String {
-    uri.chars().take(100).collect()
 }
 
 fn wrap(mode: Checked<WrappingMode>) -> Wrap {

@@ -3,6 +3,7 @@
 use super::Request;
 use super::mtl::{self, Statements};
 use crate::LoadError;
+use crate::cut::cut;
 use crate::input::{Limited, Scanner, peek, utf8};
 use crate::mesh::MeshBuilder;
 use std::collections::HashSet;
@@ -52,7 +53,7 @@ impl<'a> Libraries<'a> {
 
     fn read_one(&mut self, name: &str, materials: &mut Vec<Statements>) -> Result<(), LoadError> {
         let found = self.request.siblings.find(name);
-        let path = found.map_err(|error| LoadError::Io { file: name.to_owned(), error })?;
+        let path = found.map_err(|error| LoadError::Io { file: cut(name).into_owned(), error })?;
         if self.found.insert(path.clone()) {
             read_file(name, &path, self.request, materials)?;
         }

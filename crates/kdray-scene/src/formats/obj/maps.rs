@@ -2,6 +2,7 @@
 
 use super::Request;
 use super::mtl::Map;
+use crate::cut::cut;
 use crate::input::read_file;
 use crate::mesh::MeshBuilder;
 use crate::textures::{Encoding, TextureDecoder};
@@ -66,7 +67,7 @@ impl<'a> Maps<'a> {
                 Some(builder.model.textures.len() - 1)
             }
             Err(reason) => {
-                let warning = format!("texture {:?} left out: {reason}", map.file);
+                let warning = format!("texture {:?} left out: {reason}", cut(&map.file));
                 builder.warn_often("textures left out", warning);
                 None
             }

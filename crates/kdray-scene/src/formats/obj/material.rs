@@ -2,6 +2,7 @@
 
 use super::maps::Maps;
 use super::mtl::Statements;
+use crate::cut::cut;
 use crate::mesh::MeshBuilder;
 use crate::{AlphaMode, Material};
 
@@ -78,7 +79,7 @@ fn set_opacity(material: &mut Material, statements: &Statements, builder: &mut M
     let from_tr = statements.transparency.map(|tr| 1.0 - tr);
     let opacity = match (statements.dissolve, from_tr) {
         (None, Some(opacity)) if opacity <= 0.0 => {
-            let name = &material.name;
+            let name = cut(&material.name);
             let warning = format!("material {name:?}: `Tr 1` without `d` taken as opaque");
             builder.warn_often("materials with `Tr 1` without `d` taken as opaque", warning);
             1.0

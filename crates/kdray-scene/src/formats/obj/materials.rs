@@ -5,6 +5,7 @@ use super::libraries::Libraries;
 use super::maps::Maps;
 use super::material::material;
 use crate::Material;
+use crate::cut::cut;
 use crate::mesh::MeshBuilder;
 use std::collections::{BTreeSet, HashMap};
 
@@ -49,7 +50,7 @@ impl Materials {
                     material(statements, &mut maps, builder)
                 }
                 None => {
-                    let warning = format!("the material {name:?} is not defined");
+                    let warning = format!("the material {:?} is not defined", cut(&name));
                     builder.warn_often("materials not defined", warning);
                     Material { name, ..Material::default() }
                 }

@@ -1,6 +1,7 @@
 //! The header of a PLY file.
 
 use super::Encoding;
+use crate::cut::cut;
 use crate::input::Scanner;
 use crate::{LoadError, Place};
 
@@ -8,8 +9,17 @@ use crate::{LoadError, Place};
 pub(super) struct Header {
     pub(super) encoding: Encoding,
     pub(super) elements: Vec<Element>,
-    /// The images that texture coordinates belong to, from comments that MeshLab writes.
-    pub(super) textures: Vec<String>,
+    pub(super) textures: Textures,
+}
+
+/// The images that texture coordinates belong to, from comments that MeshLab writes.
+#[derive(Default)]
+pub(super) struct Textures {
+    pub(super) first: Option<String>,
+    /// The names of some others, as messages have them.
+    pub(super) others: Vec<String>,
+    /// How many comments there are besides.
+    pub(super) more: u64,
 }
 
 /// A list of like things, such as the vertices.
@@ -39,6 +49,9 @@ pub(super) enum Scalar {
     F32,
     F64,
 }
+
+/// More textures than this are counted, and not named.
+const MAX_OTHER_TEXTURES: usize = 16;
 
 /// More properties or elements than this make no sense.
 const MAX_DECLARATIONS: usize = 4096;
@@ -72,7 +85,7 @@ impl Header {
 struct Draft {
     encoding: Option<Encoding>,
     elements: Vec<Element>,
-    textures: Vec<String>,
+    textures: Textures,
 }
 
 impl Draft {
@@ -81,9 +94,7 @@ impl Draft {
         match words {
             ["comment", "TextureFile", ..] => {
                 let name = line.split_once("TextureFile").map_or("", |(_, name)| name.trim());
-                if !self.textures.iter().any(|other| other == name) {
-                    self.textures.push(name.to_owned());
-                }
+                self.textures.add(name);
             }
             [] | ["comment" | "obj_info", ..] => {}
             ["format", name, _version] => {
@@ -109,6 +120,24 @@ impl Draft {
     fn finish(self) -> Result<Header, &'static str> {
         let encoding = self.encoding.ok_or("the header has no format line")?;
         Ok(Header { encoding, elements: self.elements, textures: self.textures })
+    }
+}
+
+impl Textures {
+    fn add(&mut self, name: &str) {
+        let Some(first) = &self.first else {
+            self.first = Some(name.to_owned());
+            return;
+        };
+        let other = cut(name);
+        if name == first || self.others.iter().any(|known| *known == other) {
+            return;
+        }
+        if self.others.len() < MAX_OTHER_TEXTURES {
+            self.others.push(other.into_owned());
+        } else {
+            self.more += 1;
+        }
     }
 }
 

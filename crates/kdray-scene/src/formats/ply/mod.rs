@@ -7,6 +7,7 @@ mod body;
 mod header;
 
 use super::Request;
+use crate::cut::cut;
 use crate::input::{Scanner, read_file};
 use crate::mesh::{Corner, MeshBuilder};
 use crate::textures::{self, TextureDecoder};
@@ -28,11 +29,16 @@ pub(super) fn read(bytes: Box<dyn Read + '_>, request: &Request<'_>) -> Result<M
     let header = Header::read(&mut scanner)?;
     let mut values = Values::new(scanner, header.encoding);
     let mut builder = MeshBuilder::new(request);
-    if let Some((name, others)) = header.textures.split_first() {
-        add_texture(name, &mut builder, request);
-        for other in others {
-            builder.warn(format!("texture {other:?} left out: all faces have the first, {name:?}"));
-        }
+    let textures = &header.textures;
+    if let Some(first) = &textures.first {
+        add_texture(first, &mut builder, request);
+    }
+    // Without the first one's name, which is told once at most.
+    for other in &textures.others {
+        builder.warn(format!("texture {other:?} left out: all faces have the first"));
+    }
+    if textures.more > 0 {
+        builder.warn(format!("{} more comments `TextureFile` passed over", textures.more));
     }
     let mut attributes = VertexAttributes::default();
     let mut skipped = Vec::new();
@@ -80,7 +86,7 @@ fn add_texture(name: &str, builder: &mut MeshBuilder<'_>, request: &Request<'_>)
             });
             builder.material = Some(0);
         }
-        Err(reason) => builder.warn(format!("texture {name:?} left out: {reason}")),
+        Err(reason) => builder.warn(format!("texture {:?} left out: {reason}", cut(name))),
     }
 }
 
