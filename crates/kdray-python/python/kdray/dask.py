@@ -22,7 +22,6 @@ import os
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager
-from functools import cache
 from hashlib import blake2b
 from inspect import signature
 from os import PathLike
@@ -273,7 +272,6 @@ def _check_picture(options: dict[str, Any], taken: frozenset[str] = TAKEN) -> No
     _nothing().render(width=1, height=1, threads=1, **others)
 
 
-@cache
 def _nothing() -> Scene:
     """A scene of nothing, which is quick to say what it does not take."""
     return Scene().build(threads=1)
