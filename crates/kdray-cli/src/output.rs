@@ -13,6 +13,24 @@ pub(crate) fn print(bytes: &[u8]) -> Result<(), CliError> {
     stdout.write_all(bytes).and_then(|()| stdout.flush()).map_err(CliError::Stdout)
 }
 
+/// Refuses to write over a file that is read.
+pub(crate) fn check_is_no_input<'a>(
+    out: &Path,
+    inputs: impl IntoIterator<Item = &'a Path>,
+) -> Result<(), CliError> {
+    // A terminal may well be both.
+    let file = |path: &Path| path.canonicalize().ok().filter(|path| path.is_file());
+    let is_input =
+        file(out).is_some_and(|out| inputs.into_iter().any(|it| file(it) == Some(out.clone())));
+    if is_input {
+        let out = out.display();
+        return Err(CliError::Usage(format!(
+            "--out {out}: this file is read by the same command; give another name"
+        )));
+    }
+    Ok(())
+}
+
 /// A file to be, of which Ctrl-C leaves nothing.
 pub(crate) struct Output(kdray_file::Output);
 

@@ -149,17 +149,22 @@ fn how_to_build_is_not_asked_of_a_tree_that_is_there() {
 }
 
 #[test]
-fn a_tree_file_does_not_replace_its_scene() {
+fn an_output_does_not_replace_an_input() {
     let folder = Folder::new();
     let scene = folder.file("ball.off", OCTAHEDRON);
     let whole = scene.display().to_string();
     for out in ["ball.off", "./ball.off", &whole] {
         let refused = folder.kdray(&["build", "ball.off", "-o", out]);
-        refused.fails(USAGE, &[out, "this is the scene itself"]);
+        refused.fails(USAGE, &[out, "read by the same command"]);
     }
     folder.kdray(&["build", "ball.off", "-o", "-"]).fails(USAGE, &["standard output"]);
+    folder.file("rays.csv", "0,0,3,0,0,-1\n");
+    for input in ["--rays", "--points"] {
+        let refused = folder.kdray(&["query", "ball.off", input, "rays.csv", "-o", "rays.csv"]);
+        refused.fails(USAGE, &["rays.csv", "read by the same command"]);
+    }
     assert_eq!(fs::read_to_string(scene).unwrap(), OCTAHEDRON);
-    assert_eq!(folder.names(), ["ball.off"]);
+    assert_eq!(folder.names(), ["ball.off", "rays.csv"]);
 }
 
 #[test]

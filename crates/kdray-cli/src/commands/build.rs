@@ -6,7 +6,7 @@ use crate::{
     cli::Globals,
     error::CliError,
     interrupt, load,
-    output::Output,
+    output::{Output, check_is_no_input},
     progress::Progress,
 };
 use kdray::Scene;
@@ -47,17 +47,11 @@ pub(crate) fn run(args: &Args, globals: &Globals) -> Result<(), CliError> {
 
 /// Refuses the scene's own file, and standard output.
 fn check_out(args: &Args) -> Result<(), CliError> {
-    let (out, scene) = (&args.out, args.scene.scene.as_deref());
-    let real = |path: &Path| path.canonicalize().ok();
-    let refused = if out == Path::new("-") {
-        "a tree file does not go to standard output"
-    } else if real(out).is_some_and(|out| scene.and_then(real) == Some(out)) {
-        "this is the scene itself"
-    } else {
-        return Ok(());
-    };
-    let out = out.display();
-    Err(CliError::Usage(format!("--out {out}: {refused}; give another name, such as tree.kdray")))
+    if args.out == Path::new("-") {
+        let refused = "a tree file does not go to standard output; give a name, such as tree.kdray";
+        return Err(CliError::Usage(format!("--out -: {refused}")));
+    }
+    check_is_no_input(&args.out, args.scene.scene.as_deref())
 }
 
 fn write(

@@ -6,6 +6,7 @@ use crate::{
     cli::Globals,
     error::CliError,
     load,
+    output::check_is_no_input,
     progress::{self, Progress},
     query::{
         Answer, Answerer, HitWriter, HitsFormat, Mode, Row, RowReader, Summary, answer_points,
@@ -75,6 +76,8 @@ pub(crate) struct Args {
 
 /// Reads, answers and writes.
 pub(crate) fn run(args: &Args, globals: &Globals) -> Result<(), CliError> {
+    let inputs = [&args.scene.scene, &args.rays, &args.points].into_iter().flatten();
+    check_is_no_input(&args.out, inputs.map(PathBuf::as_path))?;
     if let Some(path) = &args.points {
         let mode = args.mode(Mode::ClosestPoint)?;
         return answer_file(args, path, mode, globals, || {
