@@ -54,7 +54,9 @@ impl Extent {
 
     /// How near to a surface the last digits of a point, or of a normal, may decide.
     pub fn doubt(&self) -> f64 {
-        1e-9 * self.diagonal() + 1e4 * f64::EPSILON * self.largest()
+        // Of denormals the last digit is one of these.
+        let smallest = f64::from_bits(1);
+        1e-9 * self.diagonal() + 1e4 * (f64::EPSILON * self.largest()).max(smallest)
     }
 
     /// Whether a point is in it.
