@@ -22,7 +22,7 @@ use thiserror::Error;
 /// how unevenly the matrix stretches. So rays may come from up to 2^22 times the scene's size away, which is half the longest side of the box around all
 /// instances, divided by that; from farther, whether a ray is told to meet the rim of an instance may depend on the tree.
 ///
-/// An instance takes some 230 bytes, and some 700 while it is built ([`peak_bytes`](Self::peak_bytes)).
+/// An instance takes some 230 bytes, and is reckoned to take some 700 while it is built ([`peak_bytes`](Self::peak_bytes)).
 ///
 /// It answers about rays: closest, any and all hits, counts, and many rays at once. For a condition take the first of
 /// [`all_touched`](Self::all_touched) that it holds for. About points, by hints, and from tree files only a geometry's
