@@ -125,7 +125,8 @@ impl CostModel {
         Ok(())
     }
 
-    /// The cost of a leaf of `count` primitives, for a line that meets it.
+    /// The cost of a leaf of `count` primitives, for a line that meets it. Blocks of nothing count as of one, for
+    /// figures may be asked for by a model that no build has [checked](Self::check).
     pub fn leaf(&self, count: usize) -> f64 {
         let visit = if count == 0 { 0.0 } else { self.leaf };
         visit + self.intersection * count.div_ceil(self.block.max(1)) as f64
@@ -133,6 +134,9 @@ impl CostModel {
 
     /// The cost of a split, for a line that meets the node: the chances that it meets the lower and
     /// the upper child, and how many primitives they hold.
+    ///
+    /// # Panics
+    /// In debug builds, by blocks of nothing, which [`check`](Self::check) refuses.
     #[inline]
     pub fn split(&self, chance: [f64; 2], count: [usize; 2]) -> f64 {
         let tests = chance[0] * self.weight(count[0]) + chance[1] * self.weight(count[1]);
@@ -143,7 +147,7 @@ impl CostModel {
     /// For how many tests so many primitives count while a cut is weighed.
     #[inline]
     fn weight(&self, count: usize) -> f64 {
-        let mask = self.block.max(1) - 1;
+        let mask = self.block - 1;
         let in_blocks = (count + mask) & !mask;
         // Signed numbers become floats faster.
         0.5 * (count + in_blocks) as i64 as f64
