@@ -6,7 +6,7 @@ use super::size::Size;
 use super::treelet::Treelet;
 use super::{TriangleBlock, WideNode};
 use crate::build::parallel::map_all;
-use crate::tree::NodeKind;
+use crate::tree::{KdTree, NodeKind};
 
 /// Most triangles that one link leads to.
 const MOST: usize = Link::MOST_BLOCKS * TriangleBlock::WIDTH;
@@ -20,17 +20,18 @@ pub(super) struct Plan {
     pub(super) children: Vec<Plan>,
 }
 
-/// How many levels of wide nodes are planned one by one: enough for some hundred parts.
-const LEVELS: usize = 3;
-
-/// Trees with fewer nodes are placed in one go.
-const LARGE: usize = 1 << 12;
+/// How many levels of wide nodes are worked at one by one, so that threads share what is below: enough for some hundred
+/// parts; none of a tree of few nodes, which stays on one thread.
+pub(super) fn levels_apart(tree: &KdTree<3>) -> usize {
+    const LEVELS: usize = 3;
+    const LARGE: usize = 1 << 12;
+    if tree.nodes().len() < LARGE { 0 } else { LEVELS }
+}
 
 impl Plan {
     /// That of the whole tree.
     pub(super) fn new(collapse: &Collapse<'_>) -> Self {
-        let levels = if collapse.tree.nodes().len() < LARGE { 0 } else { LEVELS };
-        Self::of_node(collapse, 0, levels)
+        Self::of_node(collapse, 0, levels_apart(collapse.tree))
     }
 
     fn of_node(collapse: &Collapse<'_>, node: u32, levels: usize) -> Self {

@@ -8,7 +8,7 @@ use super::arena::BLOCK_LINES;
 use super::home::{Home, Site};
 use super::homes::Homes;
 use super::matching::Matching;
-use super::plan::part_of_leaf;
+use super::plan::{levels_apart, part_of_leaf};
 use super::treelet::Treelet;
 use super::wide::{FULL_MARGIN, margin};
 use super::{Link, TriangleBlock, WideError, WideNode, WideTree};
@@ -23,12 +23,6 @@ use bytemuck::bytes_of;
 /// once more may come out larger by the last place of a coordinate. More than that, where a triangle is cut at a
 /// sharp angle, `inner_bounds` sees to.
 const LEAST_MARGIN: f32 = 10.0;
-
-/// How many levels of wide nodes are verified on several threads: enough for some hundred parts.
-const LEVELS: usize = 3;
-
-/// Trees with fewer nodes are verified on this thread.
-const LARGE: usize = 1 << 12;
 
 struct Verifier<'a, T: 'static> {
     wide: &'a WideTree,
@@ -66,8 +60,7 @@ impl<T: Coordinate> Verifier<'_, T> {
     fn verify(&self) -> Result<(), WideError> {
         let root = Aabb { min: [f32::NEG_INFINITY; 3], max: [f32::INFINITY; 3] };
         let stand = Stand { node: 0, cell: *self.tree.bounds(), site: Site::ROOT, bounds: root };
-        let levels = if self.tree.nodes().len() < LARGE { 0 } else { LEVELS };
-        self.verify_node(Link::ROOT, &stand, levels)?;
+        self.verify_node(Link::ROOT, &stand, levels_apart(self.tree))?;
         let homes = &self.wide.homes;
         let above = Homes::above_each_slot(homes.list(), &self.wide.arena);
         if above == **homes.numbers_above() { Ok(()) } else { Err(WideError::WrongNodeAbove) }
