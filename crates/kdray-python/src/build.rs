@@ -82,7 +82,7 @@ pub(crate) fn build_instanced(
     let placed = copies.len() as u32;
     let needed = options.peak_bytes(count(meshes))
         + InstancedScene::<f32>::peak_bytes(copies.len() + meshes.len())
-        + (copies.len() * size_of::<(u32, [[f64; 4]; 3], u32)>()) as u64;
+        + size_of_val(&*copies) as u64;
     if let Some(limit) = options.memory_limit.filter(|&limit| needed > limit) {
         let error = kdray::BuildError::Memory { needed, limit };
         return Err(BuildError::new_err(error.to_string()));

@@ -111,16 +111,12 @@ fn carried<T: Precision>(scene: &InstancedScene<T>, instance: &Instance, ray: &R
     let column = |k: usize| DVec3::from(instance.to_world.map(|row| row[k]));
     let to_world = DAffine3::from_cols(column(0), column(1), column(2), column(3));
     let to_object = inverse(&to_world);
-    let norm = |it: &DAffine3| {
-        let [x, y, z] = [it.matrix3.x_axis, it.matrix3.y_axis, it.matrix3.z_axis];
-        (x.length_squared() + y.length_squared() + z.length_squared()).sqrt()
-    };
     let carried = Ray {
         origin: to_object.transform_point3(ray.origin.into()).into(),
         direction: to_object.transform_vector3(ray.direction.into()).into(),
         interval: ray.interval,
     };
-    let reach = REACH * size(scene) / (norm(&to_world) * norm(&to_object));
+    let reach = REACH * size(scene) / refusals::uneven(&to_world.matrix3);
     let begins = DVec3::from(scene.tree_space().point(ray.origin));
     let is_plain = |way: [f64; 3]| (1e-250..1e250).contains(&DVec3::from(way).abs().max_element());
     let is_near = begins.abs().max_element() <= reach;

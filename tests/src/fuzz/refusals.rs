@@ -103,7 +103,7 @@ fn lies_beyond<T: Precision>(geometries: &[Scene<T>], instance: &Instance) -> bo
 }
 
 /// How unevenly a matrix stretches.
-fn uneven(matrix: &DMat3) -> f64 {
+pub(super) fn uneven(matrix: &DMat3) -> f64 {
     let largest =
         matrix.to_cols_array().iter().fold(f64::MIN_POSITIVE, |most, x| most.max(x.abs()));
     let scaled = DMat3::from_cols_array(&matrix.to_cols_array().map(|x| x / largest));
