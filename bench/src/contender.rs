@@ -61,6 +61,12 @@ pub(crate) trait Contender {
         Threads::Chosen
     }
 
+    /// Whether it has a query for any hit of its own, and none that the bench made of its test of triangles: by that
+    /// it is timed, but not judged.
+    fn has_any_hit(&self) -> bool {
+        true
+    }
+
     /// Builds the structure on `workers`.
     fn build<'a>(
         &self,

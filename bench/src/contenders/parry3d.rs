@@ -25,6 +25,10 @@ impl Contender for Parry {
         Threads::One
     }
 
+    fn has_any_hit(&self) -> bool {
+        false
+    }
+
     fn build<'a>(
         &self,
         mesh: &'a TriangleMesh,

@@ -47,10 +47,8 @@ impl Written {
         kernel: &str,
     ) -> Result<(), BenchError> {
         let built = contender.build(&case.mesh, &Workers::new(1)?)?;
-        // Of parry3d the query for any hit is the bench's own, by the same test of triangles.
-        let has_any = contender.name() != "parry3d";
         for kind in [SetKind::Diffuse, SetKind::Ao] {
-            if kind == SetKind::Ao && !has_any {
+            if kind == SetKind::Ao && !contender.has_any_hit() {
                 continue;
             }
             let set = RaySet { kind, rays: case.rays.clone(), parents: Vec::new() };
